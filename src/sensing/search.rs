@@ -16,7 +16,7 @@ use nalgebra::{Isometry2, Point2, Vector2};
 
 use super::chart::{Chart, ENDS, Line};
 use super::levels::{
-    BORDER, COURSES, FINE, FULL, LEVELS, Level, Offset, STRIP, course, drawn, is_of, off, widened,
+    BORDER, COURSES, FINE, FULL, LEVELS, Level, Offsets, STRIP, course, drawn, is_of, off, widened,
 };
 
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
@@ -104,21 +104,33 @@ pub(crate) struct Pyramid {
 /// The marks as each level meets them at each turn, once they were asked for.
 struct Turned<'p> {
     pyramid: &'p Pyramid,
-    marks: &'p [Mark],
-    known: Vec<Option<Vec<Offset>>>,
+    /// In an order that jumps about.
+    marks: Vec<Mark>,
+    /// In cells, and which raster is theirs.
+    cells: Vec<Option<Vec<(i32, i32, usize)>>>,
+    known: Vec<Option<Offsets>>,
 }
 
 impl<'p> Turned<'p> {
-    fn of(pyramid: &'p Pyramid, marks: &'p [Mark]) -> Self {
-        Self { pyramid, marks, known: vec![None; LEVELS * TURNS] }
+    fn of(pyramid: &'p Pyramid, marks: &[Mark]) -> Self {
+        let count = marks.len();
+        let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
+        let marks = (0..count).map(|k| marks[k * stride % count]).collect();
+        let (cells, known) = (vec![None; TURNS], vec![None; LEVELS * TURNS]);
+        Self { pyramid, marks, cells, known }
     }
 
-    fn at(&mut self, level: usize, turn: usize) -> &[Offset] {
-        let Self { pyramid, marks, known } = self;
+    fn at(&mut self, level: usize, turn: usize) -> &Offsets {
+        let Self { pyramid, marks, cells, known } = self;
         known[level * TURNS + turn].get_or_insert_with(|| {
-            let one = |(x, y, kind)| pyramid.levels[level].offset(x, y, kind);
-            pyramid.turned(marks, turn).map(one).collect()
+            let cells = cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn));
+            pyramid.levels[level].offsets(cells.iter().copied())
         })
+    }
+
+    fn cells(&mut self, turn: usize) -> &[(i32, i32, usize)] {
+        let Self { pyramid, marks, cells, .. } = self;
+        cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn))
     }
 }
 
@@ -160,29 +172,30 @@ impl Pyramid {
         Self { cell, low, width, height, levels, kinds, off, swept }
     }
 
-    /// Where the marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
-    fn swept(&self, marks: &[Mark], turn: usize) -> (Vec<Offset>, usize) {
+    /// Where marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
+    fn swept(&self, cells: &[(i32, i32, usize)]) -> (Offsets, usize) {
         let width = degrees(SWEEP / 2).to_radians();
-        let one = |(x, y, kind): (i32, i32, usize)| {
+        let one = |&(x, y, kind): &(i32, i32, usize)| {
             let off = f64::from(x).hypot(f64::from(y)) * width + 1.0;
             let class = REACHES.iter().position(|reach| off <= *reach as f64)?;
             let reach = REACHES[class] as i32;
-            Some(self.swept.offset(x - reach, y - reach, kind * REACHES.len() + class))
+            Some((x - reach, y - reach, kind * REACHES.len() + class))
         };
-        let all: Vec<_> = self.turned(marks, turn).collect();
-        let offsets: Vec<Offset> = all.iter().copied().filter_map(one).collect();
-        let beyond = all.len() - offsets.len();
+        let offsets = self.swept.offsets(cells.iter().filter_map(one));
+        let beyond = cells.len() - offsets.len();
         (offsets, beyond)
     }
 
-    /// Where the marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there; in
-    /// an order that jumps about.
-    fn turned(&self, marks: &[Mark], turn: usize) -> impl Iterator<Item = (i32, i32, usize)> {
+    /// Where marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there.
+    fn turned(&self, marks: &[Mark], turn: usize) -> Vec<(i32, i32, usize)> {
         let (sin, cos) = degrees(turn).to_radians().sin_cos();
         let middle = degrees(turn - turn % SWEEP + SWEEP / 2);
-        let one = move |mark: &Mark| {
+        let one = |mark: &Mark| {
             let p = mark.at;
-            let cell = |v: f64| (v / self.cell).round() as i32;
+            let cell = |v: f64| {
+                let v = v / self.cell;
+                (v + 0.5_f64.copysign(v)) as i32
+            };
             let kind = match mark.course {
                 None => COURSES,
                 Some(Course { degrees: seen, astray }) => {
@@ -191,14 +204,12 @@ impl Pyramid {
                     if off > astray + degrees(SWEEP) / 2.0 {
                         return None;
                     }
-                    (course * COURSES as f64 / 180.0).round() as usize % COURSES
+                    (course * COURSES as f64 / 180.0 + 0.5) as usize % COURSES
                 }
             };
             Some((cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), self.kinds[kind]?))
         };
-        let count = marks.len();
-        let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
-        (0..count).filter_map(move |k| one(&marks[k * stride % count]))
+        marks.iter().filter_map(one).collect()
     }
 
     /// Poses that explain no less than `least` of the returns, nor less than the best by more than the `margin` for what that
@@ -266,30 +277,26 @@ impl Pyramid {
                 continue;
             };
             let marks = turned.at(level, turn);
-            for (side, row) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-                // Half of its cells make one strip of the level below.
+            for side in 0..2 {
+                // Half of its cells make two strips of the level below, one above the other.
                 if (strip.passed >> (side * STRIP / 2)) & HALF == 0 {
                     continue;
                 }
-                let (column, row) = (2 * left_column + side * STRIP, 2 * low_row + row);
-                if column >= self.width.div_ceil(1 << level)
-                    || row >= self.height.div_ceil(1 << level)
-                {
+                let (column, row) = (2 * left_column + side * STRIP, 2 * low_row);
+                if column >= self.width.div_ceil(1 << level) {
                     continue;
                 }
-                *left = left.checked_sub(1)?;
+                *left = left.checked_sub(2)?;
                 if level > 0 {
-                    open.extend(self.strip(level, marks, (turn, column, row), needed));
+                    self.open(&mut open, level, marks, (turn, column, row), needed);
                     continue;
                 }
                 let sums = self.levels[0].sums(marks, column as i32, row as i32, needed);
-                for (k, bound) in sums.into_iter().flatten().enumerate() {
-                    let column = column + k;
-                    if bound < needed || column >= self.width {
-                        continue;
-                    }
-                    if !is_known(&self.pose(turn, column, row)) {
-                        open.push(bound, Strip::new(level, (turn, column, row), 1));
+                for (sums, row) in sums.into_iter().flatten().zip(row..self.height) {
+                    for (bound, column) in sums.into_iter().zip(column..self.width) {
+                        if bound >= needed && !is_known(&self.pose(turn, column, row)) {
+                            open.push(bound, Strip::new(level, (turn, column, row), 1));
+                        }
                     }
                 }
             }
@@ -302,19 +309,19 @@ impl Pyramid {
         let mut open = Open::default();
         let top = LEVELS - 1;
         for first in (0..TURNS).step_by(SWEEP) {
-            let (marks, beyond) = self.swept(turned.marks, first + SWEEP / 2);
+            let (marks, beyond) = self.swept(turned.cells(first + SWEEP / 2));
             if u16::from(FULL) * ((marks.len() + beyond) as u16) < needed {
                 continue;
             }
             let rough = needed.saturating_sub(u16::from(FULL) * beyond as u16);
-            for row in 0..self.height.div_ceil(1 << top) {
+            for row in (0..self.height.div_ceil(1 << top)).step_by(2) {
                 for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
                     if self.swept.sums(&marks, column as i32, row as i32, rough).is_none() {
                         continue;
                     }
                     for turn in first..first + SWEEP {
                         let marks = turned.at(top, turn);
-                        open.extend(self.strip(top, marks, (turn, column, row), needed));
+                        self.open(&mut open, top, marks, (turn, column, row), needed);
                     }
                 }
             }
@@ -322,20 +329,30 @@ impl Pyramid {
         open
     }
 
-    /// A strip of which at least one cell comes to `needed`.
-    fn strip(
+    /// Adds a strip and the one above it, where at least one cell comes to `needed`.
+    fn open(
         &self,
+        open: &mut Open,
         level: usize,
-        marks: &[Offset],
+        marks: &Offsets,
         (turn, column, row): (usize, usize, usize),
         needed: u16,
-    ) -> Option<(u16, Strip)> {
-        let sums = self.levels[level].sums(marks, column as i32, row as i32, needed)?;
-        let left = self.width.div_ceil(1 << level) - column;
-        let inside = || sums.iter().enumerate().take(left).filter(|(_, sum)| **sum >= needed);
-        let passed = inside().fold(0, |passed, (k, _)| passed | (1 << k));
-        let bound = inside().map(|(_, sum)| *sum).max()?;
-        Some((bound, Strip::new(level, (turn, column, row), passed)))
+    ) {
+        let sums = self.levels[level].sums(marks, column as i32, row as i32, needed);
+        let columns = column..self.width.div_ceil(1 << level);
+        let rows = row..self.height.div_ceil(1 << level);
+        for (sums, row) in sums.into_iter().flatten().zip(rows) {
+            let (mut bound, mut passed) = (0, 0);
+            for (k, (sum, _)) in sums.into_iter().zip(columns.clone()).enumerate() {
+                if sum >= needed {
+                    bound = bound.max(sum);
+                    passed |= 1 << k;
+                }
+            }
+            if passed != 0 {
+                open.push(bound, Strip::new(level, (turn, column, row), passed));
+            }
+        }
     }
 
     fn pose(&self, turn: usize, column: usize, row: usize) -> Isometry2<f64> {
@@ -398,12 +415,6 @@ impl Open {
         self.by_bound[bound].push(Reverse(strip));
     }
 
-    fn extend(&mut self, strip: Option<(u16, Strip)>) {
-        if let Some((bound, strip)) = strip {
-            self.push(bound, strip);
-        }
-    }
-
     /// The one that promises most, with what that is; of several that of the finest level, the least turn and place.
     fn pop(&mut self) -> Option<(u16, Strip)> {
         loop {
@@ -423,20 +434,13 @@ mod tests {
     /// Every pose of the raster, one after another, each return by itself.
     fn all(pyramid: &Pyramid, marks: &[Mark]) -> Vec<(f64, Isometry2<f64>)> {
         let finest = &pyramid.levels[0];
-        let value = |x: i32, y: i32, kind: usize| {
-            let at = |v: i32| usize::try_from(v + BORDER as i32).ok();
-            let (Some(x), Some(y)) = (at(x), at(y)) else { return 0 };
-            let is_inside = x < finest.columns && y < finest.rows;
-            let row = (kind * finest.rows + y) * finest.stride;
-            if is_inside { finest.values[row + STRIP + x] } else { 0 }
-        };
         let mut scored = Vec::new();
         for turn in 0..TURNS {
-            let turned: Vec<_> = pyramid.turned(marks, turn).collect();
+            let turned = pyramid.turned(marks, turn);
             for row in 0..pyramid.height {
                 for column in 0..pyramid.width {
                     let one = |(x, y, kind): &(i32, i32, usize)| {
-                        f64::from(value(x + column as i32, y + row as i32, *kind))
+                        f64::from(finest.value(x + column as i32, y + row as i32, *kind))
                     };
                     let sum: f64 = turned.iter().map(one).sum();
                     let share = sum / (f64::from(FULL) * marks.len() as f64);
