@@ -140,13 +140,7 @@ impl Level {
 
     /// What the marks sum up to in each cell of a strip and of the one above it; none where it is told that no cell comes to
     /// `needed`.
-    pub(crate) fn sums(
-        &self,
-        marks: &Offsets,
-        column: i32,
-        row: i32,
-        needed: u16,
-    ) -> Option<[[u16; STRIP]; 2]> {
+    pub(crate) fn sums(&self, marks: &Offsets, column: i32, row: i32, needed: u16) -> Option<Sums> {
         let columns = -(STRIP as i32)..=self.columns as i32;
         let rows = -1..self.rows as i32;
         let from = STRIP as i32 + (row + 1) * self.up() as i32 + column;
@@ -181,15 +175,30 @@ const LOWER: u64 = 0x0f0f_0f0f_0f0f_0f0f;
 const BYTE: u64 = 0x00ff_00ff_00ff_00ff;
 const ONES: u64 = 0x0001_0001_0001_0001;
 const HIGHEST: u64 = 0x8000_8000_8000_8000;
+/// Brings the lowest bits of four sums to every other bit from the 48th on.
+const GATHER: u64 = 1 << 48 | 1 << 34 | 1 << 20 | 1 << 6;
+
+/// What marks sum up to in the cells of a strip and in those above: of each eight the even ones, and the odd ones.
+pub(crate) struct Sums([[Words; 2]; 2]);
+
+impl Sums {
+    /// Which cells of one of its two rows come to `needed`, as bits.
+    pub(crate) fn reaching(&self, row: usize, needed: u16) -> u32 {
+        let more = ONES * u64::from((1 << 15) - needed);
+        let bits = |sums: u64| (((sums + more) & HIGHEST) >> 15).wrapping_mul(GATHER) >> 48;
+        let [even, odd] = &self.0[row];
+        (0..STRIP / 8)
+            .fold(0, |all, k| all | ((bits(even[k]) | bits(odd[k]) << 1) << (8 * k)) as u32)
+    }
+
+    pub(crate) fn at(&self, row: usize, cell: usize) -> u16 {
+        (self.0[row][cell % 2][cell / 8] >> (16 * (cell % 8 / 2))) as u16
+    }
+}
 
 /// Sums of both halves of what each mark meets; none where it is told that no cell comes to `needed`.
 #[inline(always)]
-fn summed(
-    marks: &[Offset],
-    needed: u16,
-    values: impl Fn(&Offset) -> Words,
-) -> Option<[[u16; STRIP]; 2]> {
-    // Of each word's bytes the even ones and the odd ones, of the lower cells and the upper.
+fn summed(marks: &[Offset], needed: u16, values: impl Fn(&Offset) -> Words) -> Option<Sums> {
     let mut sums = [[[0_u64; STRIP / 8]; 2]; 2];
     let mut left = u16::from(FULL) * marks.len() as u16;
     for group in marks.chunks(GROUP) {
@@ -227,8 +236,7 @@ fn summed(
             return None;
         }
     }
-    let cell = |row: usize, k: usize| (sums[row][k % 2][k / 8] >> (16 * (k % 8 / 2))) as u16;
-    Some([0, 1].map(|row| std::array::from_fn(|k| cell(row, k))))
+    Some(Sums(sums))
 }
 
 /// The course of a line in degrees, and by how much it is off where its ends err by so many cm.

@@ -349,22 +349,26 @@ impl Pyramid {
         needed: u16,
     ) {
         let sums = self.levels[level].sums(marks, column as i32, row as i32, needed);
+        let Some(sums) = sums else { return };
         let place = |column: usize, row: usize| Place {
             turn: turn as u16,
             column: column as u32,
             row: row as u32,
         };
-        let columns = column..self.width.div_ceil(1 << level);
-        let rows = row..self.height.div_ceil(1 << level);
-        for (sums, row) in sums.into_iter().flatten().zip(rows) {
-            let (mut bound, mut passed) = (0, 0);
-            for (k, (sum, column)) in sums.into_iter().zip(columns.clone()).enumerate() {
-                if sum >= needed {
-                    bound = bound.max(sum);
-                    passed |= 1 << k;
-                    if level == 0 {
-                        open.at(sum).poses.push(place(column, row));
-                    }
+        let columns = self.width.div_ceil(1 << level) - column;
+        let inside = if columns < STRIP { (1 << columns) - 1 } else { u32::MAX };
+        for row in row..self.height.div_ceil(1 << level).min(row + 2) {
+            let upper = row % 2;
+            let passed = sums.reaching(upper, needed) & inside;
+            let mut bound = 0;
+            let mut left = passed;
+            while left != 0 {
+                let cell = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let sum = sums.at(upper, cell);
+                bound = bound.max(sum);
+                if level == 0 {
+                    open.at(sum).poses.push(place(column + cell, row));
                 }
             }
             if passed != 0 && level > 0 {
