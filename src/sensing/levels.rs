@@ -9,7 +9,7 @@ const SPREAD: f64 = 12.0;
 /// What a return on a line counts.
 pub(crate) const FULL: u8 = 4;
 /// Levels; coarser cells gain nothing.
-pub(crate) const LEVELS: usize = 5;
+pub(crate) const LEVELS: usize = 4;
 /// Cells that are looked at together, and as many above them, in two registers.
 pub(crate) const STRIP: usize = 32;
 /// Returns that are summed before it is asked whether the rest can make up for what they lack; their sum fits a byte.
@@ -66,7 +66,7 @@ pub(crate) struct Level {
 
 impl Level {
     pub(crate) fn new(level: usize, (width, height): (usize, usize)) -> Self {
-        let (step, finest) = (level, level.saturating_sub(2));
+        let (step, finest) = (level, level.saturating_sub(1));
         let (columns, rows) = (width.div_ceil(1 << step), height.div_ceil(1 << step));
         Self { values: vec![0; STRIP], columns, rows, stride: columns + STRIP, step, finest }
     }
