@@ -16,6 +16,7 @@ pub(crate) const STRIP: usize = 32;
 const GROUP: usize = 15;
 /// Returns whose sum fits half a byte.
 const PACKED: usize = 3;
+const _: () = assert!(FULL as usize * PACKED < 16 && FULL as usize * GROUP < 256);
 /// Courses by which lines are told apart, in half a turn; one raster more has all lines.
 pub(crate) const COURSES: usize = 16;
 /// What is seen to run along a line turns from it by no more than this, in degrees, and by what its ends err.
@@ -163,7 +164,7 @@ impl Level {
         summed(&marks.all, needed, |mark| {
             let is_met =
                 columns.contains(&(column + mark.column)) && rows.contains(&(row + mark.row));
-            if is_met { values(mark) } else { [0; 4] }
+            if is_met { values(mark) } else { [0; STRIP / 8] }
         })
     }
 }

@@ -5,8 +5,8 @@
 //! cells from it on says. So the sum over the returns, shifted by a coarse cell, is no less than that of any pose in
 //! it, and whole stretches of the building are left out at once.
 //!
-//! Poses are looked at by strips, [`STRIP`] cells of a row at one turn: what one return says of them stands side by side, so
-//! that they are summed together in a register. Since the cells of level `k` are `2^k` apart and the rasters finer than
+//! Poses are looked at by strips, [`STRIP`] cells of a row at one turn, and as many above them: what one return says of them
+//! stands side by side, so that they are summed together in registers. Since the cells of level `k` are `2^k` apart and the rasters finer than
 //! that, each raster is kept as several, by the phase in which a return meets it.
 
 use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
@@ -478,19 +478,25 @@ mod tests {
     #[test]
     fn nothing_is_passed_over() {
         let (least, margin, apart) = (0.4, 0.2, 30.0);
-        for seed in 0..3 {
+        // Small ones, of which some returns lie outside from wherever, and one that goes over several strips.
+        for (seed, wide, count, range) in [
+            (0, 250.0, 12, 400.0),
+            (1, 250.0, 12, 400.0),
+            (2, 250.0, 12, 400.0),
+            (3, 900.0, 30, 90.0),
+        ] {
             let mut random = fastrand::Rng::with_seed(seed);
-            let mut point = |wide: f64| Point2::new(random.f64() * wide, random.f64() * 200.0);
-            let lines: Vec<Line> = (0..12)
-                .map(|_| Line { start: point(250.0), end: point(250.0), face: None })
-                .collect();
+            let mut point = || Point2::new(random.f64() * wide, random.f64() * 200.0);
+            let lines: Vec<Line> =
+                (0..count).map(|_| Line { start: point(), end: point(), face: None }).collect();
             let chart = Chart::new(lines);
             let pyramid = Pyramid::of(&chart);
-            let pose = Isometry2::new(Vector2::new(120.0, 90.0), 1.0 + f64::from(seed as u32));
+            let at = Vector2::new(wide / 2.0 - 5.0, 90.0);
+            let pose = Isometry2::new(at, 1.0 + f64::from(seed as u32));
             let marks: Vec<Mark> = (0..28)
                 .filter_map(|beam| {
                     let bearing = f64::from(beam) * 0.22;
-                    let (range, line) = chart.cast(&pose, bearing, 400.0);
+                    let (range, line) = chart.cast(&pose, bearing, range);
                     let line = &chart.lines()[line? as usize];
                     let along = pose.rotation.inverse() * line.direction();
                     let course = (beam % 3 > 0).then(|| Course::of(along * 50.0));
