@@ -9,11 +9,14 @@ const SPREAD: f64 = 12.0;
 /// What a return on a line counts.
 pub(crate) const FULL: u8 = 4;
 /// Levels; coarser cells gain nothing.
-pub(crate) const LEVELS: usize = 5;
-/// Cells that are looked at together, in two registers.
+pub(crate) const LEVELS: usize = 4;
+/// Cells that are looked at together, and as many above them, in two registers.
 pub(crate) const STRIP: usize = 32;
 /// Returns that are summed before it is asked whether the rest can make up for what they lack; their sum fits a byte.
-const GROUP: usize = 16;
+const GROUP: usize = 15;
+/// Returns whose sum fits half a byte.
+const PACKED: usize = 3;
+const _: () = assert!(FULL as usize * PACKED < 16 && FULL as usize * GROUP < 256);
 /// Courses by which lines are told apart, in half a turn; one raster more has all lines.
 pub(crate) const COURSES: usize = 16;
 /// What is seen to run along a line turns from it by no more than this, in degrees, and by what its ends err.
@@ -23,104 +26,218 @@ pub(crate) const FINE: f64 = 2.0;
 /// Empty cells about the building, so that a window may begin before it: twice the coarsest.
 pub(crate) const BORDER: usize = 2 << (LEVELS - 1);
 
-/// Where a mark meets the rasters of a level, from a cell on: where its plane begins, and how many cells on.
+/// Where a mark meets the rasters of a level, from a cell on: how many values on, and how many cells.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Offset {
-    plane: usize,
+struct Offset {
+    values: i32,
     column: i32,
     row: i32,
 }
 
+/// Where marks meet the rasters of a level.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Offsets {
+    all: Vec<Offset>,
+    /// The least and the greatest of their columns and of their rows.
+    columns: (i32, i32),
+    rows: (i32, i32),
+}
+
+impl Offsets {
+    pub(crate) fn len(&self) -> usize {
+        self.all.len()
+    }
+}
+
 /// The rasters of a level: of each course and each phase one.
+///
+/// A value tells of two cells, one above the other: the lower one in its lower half, so that strips are summed by twos, three marks
+/// before the halves are taken apart. The phases of a row lie together, since what is seen lies along few walls.
 pub(crate) struct Level {
-    pub(crate) values: Vec<u8>,
-    /// Cells that can be met, and what lies between the beginnings of two rows.
-    pub(crate) columns: usize,
-    pub(crate) rows: usize,
-    pub(crate) stride: usize,
-    /// Cells of a level are `step` finest ones apart; a window may begin every `finest`.
+    values: Vec<u8>,
+    /// Cells that can be met.
+    columns: usize,
+    rows: usize,
+    /// What lies between the beginnings of two rows of one phase; between them there is nothing for [`STRIP`] cells.
+    stride: usize,
+    /// Cells of a level are `2^step` finest ones apart; a window may begin every `2^finest`.
     step: usize,
     finest: usize,
 }
 
 impl Level {
     pub(crate) fn new(level: usize, (width, height): (usize, usize)) -> Self {
-        let (step, finest) = (1 << level, 1 << level.saturating_sub(2));
-        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
-        Self { values: Vec::new(), columns, rows, stride: columns + 2 * STRIP, step, finest }
+        let (step, finest) = (level, level.saturating_sub(1));
+        let (columns, rows) = (width.div_ceil(1 << step), height.div_ceil(1 << step));
+        Self { values: vec![0; STRIP], columns, rows, stride: columns + STRIP, step, finest }
     }
 
-    /// Phases in either direction.
+    /// Phases in either direction, as a power of two.
     fn phases(&self) -> usize {
-        self.step / self.finest
+        self.step - self.finest
     }
 
-    /// Takes in the next course: at each cell the most in the window of `step` cells from it on, in both directions.
+    /// From one row of a course to the next.
+    fn up(&self) -> usize {
+        self.stride << (2 * self.phases())
+    }
+
+    /// Takes in the next course: at each cell the most in the window of `2^step` cells from it on, in both directions.
     pub(crate) fn add(&mut self, most: &[u8], (width, height): (usize, usize)) {
         // What begins anywhere between two phases is within the window of the first, so much the wider.
-        let wide = (self.finest > 1).then(|| widened(most, width, height, self.finest - 1));
+        let wide = (self.finest > 0).then(|| widened(most, width, height, (1 << self.finest) - 1));
         let most = wide.as_deref().unwrap_or(most);
-        for phase in 0..self.phases() * self.phases() {
-            let [left, low] =
-                [phase % self.phases(), phase / self.phases()].map(|n| n * self.finest);
-            for row in 0..self.rows {
-                let y = row * self.step + low;
-                let at = |column: usize| (column * self.step + left, y);
-                self.values.extend([0; STRIP]);
+        let phases = 1 << self.phases();
+        let at = |x: usize, y: Option<usize>| match y {
+            Some(y) if x < width && y < height => most[y * width + x],
+            _ => 0,
+        };
+        // From below the first row on: of that the upper half counts.
+        for above in 0..=self.rows {
+            for phase in 0..phases * phases {
+                let [left, low] = [phase % phases, phase / phases].map(|n| n << self.finest);
+                let upper = (above << self.step) + low;
+                let lower = upper.checked_sub(1 << self.step);
+                let upper = (above < self.rows).then_some(upper);
                 self.values.extend((0..self.columns).map(|column| {
-                    let (x, y) = at(column);
-                    if x < width && y < height { most[y * width + x] } else { 0 }
+                    let x = (column << self.step) + left;
+                    at(x, lower) | (at(x, upper) << 4)
                 }));
                 self.values.extend([0; STRIP]);
             }
         }
     }
 
-    /// Where a mark that lies so many finest cells on meets it.
-    pub(crate) fn offset(&self, x: i32, y: i32, kind: usize) -> Offset {
+    /// Where marks that lie so many finest cells on meet it, each of the raster that it names.
+    pub(crate) fn offsets(&self, marks: impl Iterator<Item = (i32, i32, usize)>) -> Offsets {
         let split = |v: i32| {
-            let (v, step) = (v + BORDER as i32, self.step as i32);
-            (v.div_euclid(step), v.rem_euclid(step) as usize / self.finest)
+            let v = v + BORDER as i32;
+            (v >> self.step, (v & ((1 << self.step) - 1)) >> self.finest)
         };
-        let ((column, left), (row, low)) = (split(x), split(y));
-        let plane = (kind * self.phases() + low) * self.phases() + left;
-        Offset { plane: plane * self.rows * self.stride, column, row }
+        let (up, stride) = (self.up() as i32, self.stride as i32);
+        let one = |(x, y, kind): (i32, i32, usize)| {
+            let ((column, left), (row, low)) = (split(x), split(y));
+            let plane = (kind * (self.rows + 1)) as i32 * up;
+            let phase = (low << self.phases()) + left;
+            Offset { values: plane + row * up + phase * stride + column, column, row }
+        };
+        let all: Vec<Offset> = marks.map(one).collect();
+        let span = |of: fn(&Offset) -> i32| {
+            let least = all.iter().map(of).min().unwrap_or(0);
+            (least, all.iter().map(of).max().unwrap_or(0))
+        };
+        let (columns, rows) = (span(|offset| offset.column), span(|offset| offset.row));
+        Offsets { all, columns, rows }
     }
 
-    /// What the marks sum up to in each cell of a strip; none where it is told that no cell comes to `needed`.
-    pub(crate) fn sums(
-        &self,
-        marks: &[Offset],
-        column: i32,
-        row: i32,
-        needed: u16,
-    ) -> Option<[u16; STRIP]> {
-        let mut sums = [0_u16; STRIP];
-        let mut left = u16::from(FULL) * marks.len() as u16;
-        for group in marks.chunks(GROUP) {
-            let mut part = [0_u8; STRIP];
-            for mark in group {
-                let (column, row) = (column + mark.column + STRIP as i32, row + mark.row);
-                let Ok(row) = usize::try_from(row) else { continue };
-                let Ok(column) = usize::try_from(column) else { continue };
-                if row >= self.rows || column > self.columns + STRIP {
-                    continue;
-                }
-                let values = &self.values[mark.plane + row * self.stride + column..][..STRIP];
-                for (sum, value) in part.iter_mut().zip(values) {
-                    *sum = sum.wrapping_add(*value);
-                }
+    /// What a mark of the finest level that lies so many cells on counts, read by itself.
+    #[cfg(test)]
+    pub(crate) fn value(&self, x: i32, y: i32, kind: usize) -> u8 {
+        let at = |v: i32| usize::try_from(v + BORDER as i32).ok();
+        let (Some(x), Some(y)) = (at(x), at(y)) else { return 0 };
+        let row = (kind * (self.rows + 1) + y + 1) * self.stride;
+        if x < self.columns && y < self.rows { self.values[STRIP + row + x] & 15 } else { 0 }
+    }
+
+    /// What the marks sum up to in each cell of a strip and of the one above it; none where it is told that no cell comes to
+    /// `needed`.
+    pub(crate) fn sums(&self, marks: &Offsets, column: i32, row: i32, needed: u16) -> Option<Sums> {
+        let columns = -(STRIP as i32)..=self.columns as i32;
+        let rows = -1..self.rows as i32;
+        let from = STRIP as i32 + (row + 1) * self.up() as i32 + column;
+        let values = |mark: &Offset| {
+            let values = &self.values[(from + mark.values) as usize..];
+            let values: &[u8; STRIP] = values.first_chunk().expect("a row ends with nothing");
+            let mut words = [0; STRIP / 8];
+            for (word, bytes) in words.iter_mut().zip(values.as_chunks().0) {
+                *word = u64::from_le_bytes(*bytes);
             }
-            for (sum, part) in sums.iter_mut().zip(part) {
-                *sum += u16::from(part);
+            words
+        };
+        let is_within = columns.contains(&(column + marks.columns.0))
+            && columns.contains(&(column + marks.columns.1))
+            && rows.contains(&(row + marks.rows.0))
+            && rows.contains(&(row + marks.rows.1));
+        if is_within {
+            return summed(&marks.all, needed, values);
+        }
+        summed(&marks.all, needed, |mark| {
+            let is_met =
+                columns.contains(&(column + mark.column)) && rows.contains(&(row + mark.row));
+            if is_met { values(mark) } else { [0; STRIP / 8] }
+        })
+    }
+}
+
+/// Values of a strip, eight in a word.
+type Words = [u64; STRIP / 8];
+/// The lower half of each byte, the lower byte of each of four sums, one in each of four sums, and their highest bits.
+const LOWER: u64 = 0x0f0f_0f0f_0f0f_0f0f;
+const BYTE: u64 = 0x00ff_00ff_00ff_00ff;
+const ONES: u64 = 0x0001_0001_0001_0001;
+const HIGHEST: u64 = 0x8000_8000_8000_8000;
+/// Brings the lowest bits of four sums to every other bit from the 48th on.
+const GATHER: u64 = 1 << 48 | 1 << 34 | 1 << 20 | 1 << 6;
+
+/// What marks sum up to in the cells of a strip and in those above: of each eight the even ones, and the odd ones.
+pub(crate) struct Sums([[Words; 2]; 2]);
+
+impl Sums {
+    /// Which cells of one of its two rows come to `needed`, as bits.
+    pub(crate) fn reaching(&self, row: usize, needed: u16) -> u32 {
+        let more = ONES * u64::from((1 << 15) - needed);
+        let bits = |sums: u64| (((sums + more) & HIGHEST) >> 15).wrapping_mul(GATHER) >> 48;
+        let [even, odd] = &self.0[row];
+        (0..STRIP / 8)
+            .fold(0, |all, k| all | ((bits(even[k]) | bits(odd[k]) << 1) << (8 * k)) as u32)
+    }
+
+    pub(crate) fn at(&self, row: usize, cell: usize) -> u16 {
+        (self.0[row][cell % 2][cell / 8] >> (16 * (cell % 8 / 2))) as u16
+    }
+}
+
+/// Sums of both halves of what each mark meets; none where it is told that no cell comes to `needed`.
+#[inline(always)]
+fn summed(marks: &[Offset], needed: u16, values: impl Fn(&Offset) -> Words) -> Option<Sums> {
+    let mut sums = [[[0_u64; STRIP / 8]; 2]; 2];
+    let mut left = u16::from(FULL) * marks.len() as u16;
+    for group in marks.chunks(GROUP) {
+        let mut parts = [[0; STRIP / 8]; 2];
+        let mut add = |values: Words| {
+            for k in 0..STRIP / 8 {
+                parts[0][k] += values[k] & LOWER;
+                parts[1][k] += (values[k] >> 4) & LOWER;
             }
-            left -= u16::from(FULL) * group.len() as u16;
-            if sums.iter().fold(0, |most, sum| most.max(*sum)) + left < needed {
-                return None;
+        };
+        let few = group.chunks_exact(PACKED);
+        let last = few.remainder();
+        for few in few {
+            let [mut sum, b, c] = [values(&few[0]), values(&few[1]), values(&few[2])];
+            for k in 0..STRIP / 8 {
+                sum[k] += b[k] + c[k];
+            }
+            add(sum);
+        }
+        for mark in last {
+            add(values(mark));
+        }
+        left -= u16::from(FULL) * group.len() as u16;
+        // What comes to it has its highest bit set by so much more.
+        let more = ONES * u64::from((1 << 15) - needed.saturating_sub(left));
+        let mut reached = 0;
+        for (sums, part) in sums.iter_mut().zip(parts) {
+            for k in 0..STRIP / 8 {
+                sums[0][k] += part[k] & BYTE;
+                sums[1][k] += (part[k] >> 8) & BYTE;
+                reached |= (sums[0][k] + more) | (sums[1][k] + more);
             }
         }
-        Some(sums)
+        if reached & HIGHEST == 0 {
+            return None;
+        }
     }
+    Some(Sums(sums))
 }
 
 /// The course of a line in degrees, and by how much it is off where its ends err by so many cm.

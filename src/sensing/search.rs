@@ -5,18 +5,15 @@
 //! cells from it on says. So the sum over the returns, shifted by a coarse cell, is no less than that of any pose in
 //! it, and whole stretches of the building are left out at once.
 //!
-//! Poses are looked at by strips, [`STRIP`] cells of a row at one turn: what one return says of them stands side by side, so
-//! that they are summed together in a register. Since the cells of level `k` are `2^k` apart and the rasters finer than
+//! Poses are looked at by strips, [`STRIP`] cells of a row at one turn, and as many above them: what one return says of them
+//! stands side by side, so that they are summed together in registers. Since the cells of level `k` are `2^k` apart and the rasters finer than
 //! that, each raster is kept as several, by the phase in which a return meets it.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
-use nalgebra::{Isometry2, Point2, Vector2};
+use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
 
 use super::chart::{Chart, ENDS, Line};
 use super::levels::{
-    BORDER, COURSES, FINE, FULL, LEVELS, Level, Offset, STRIP, course, drawn, is_of, off, widened,
+    BORDER, COURSES, FINE, FULL, LEVELS, Level, Offsets, STRIP, course, drawn, is_of, off, widened,
 };
 
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
@@ -92,6 +89,7 @@ pub(crate) struct Pyramid {
     low: Point2<f64>,
     width: usize,
     height: usize,
+    turns: Vec<UnitComplex<f64>>,
     levels: Vec<Level>,
     /// Which of the rasters this is of each course; none where it would be empty.
     kinds: Vec<Option<usize>>,
@@ -104,21 +102,35 @@ pub(crate) struct Pyramid {
 /// The marks as each level meets them at each turn, once they were asked for.
 struct Turned<'p> {
     pyramid: &'p Pyramid,
-    marks: &'p [Mark],
-    known: Vec<Option<Vec<Offset>>>,
+    /// In an order that jumps about.
+    marks: Vec<Mark>,
+    /// In cells, and which raster is theirs.
+    cells: Vec<Option<Vec<(i32, i32, usize)>>>,
+    known: Vec<Option<Offsets>>,
 }
 
 impl<'p> Turned<'p> {
-    fn of(pyramid: &'p Pyramid, marks: &'p [Mark]) -> Self {
-        Self { pyramid, marks, known: vec![None; LEVELS * TURNS] }
+    fn of(pyramid: &'p Pyramid, marks: &[Mark]) -> Self {
+        let count = marks.len();
+        let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
+        let mut marks: Vec<Mark> = (0..count).map(|k| marks[k * stride % count]).collect();
+        // Those of a course first: fewer lines have it than there are.
+        marks.sort_by_key(|mark| mark.course.is_none());
+        let (cells, known) = (vec![None; TURNS], vec![None; LEVELS * TURNS]);
+        Self { pyramid, marks, cells, known }
     }
 
-    fn at(&mut self, level: usize, turn: usize) -> &[Offset] {
-        let Self { pyramid, marks, known } = self;
+    fn at(&mut self, level: usize, turn: usize) -> &Offsets {
+        let Self { pyramid, marks, cells, known } = self;
         known[level * TURNS + turn].get_or_insert_with(|| {
-            let one = |(x, y, kind)| pyramid.levels[level].offset(x, y, kind);
-            pyramid.turned(marks, turn).map(one).collect()
+            let cells = cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn));
+            pyramid.levels[level].offsets(cells.iter().copied())
         })
+    }
+
+    fn cells(&mut self, turn: usize) -> &[(i32, i32, usize)] {
+        let Self { pyramid, marks, cells, .. } = self;
+        cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn))
     }
 }
 
@@ -157,32 +169,35 @@ impl Pyramid {
             }
         }
         let off = off(chart);
-        Self { cell, low, width, height, levels, kinds, off, swept }
+        let turn = |turn| UnitComplex::new(degrees(turn).to_radians());
+        let turns = (0..TURNS).map(turn).collect();
+        Self { cell, low, width, height, turns, levels, kinds, off, swept }
     }
 
-    /// Where the marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
-    fn swept(&self, marks: &[Mark], turn: usize) -> (Vec<Offset>, usize) {
+    /// Where marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
+    fn swept(&self, cells: &[(i32, i32, usize)]) -> (Offsets, usize) {
         let width = degrees(SWEEP / 2).to_radians();
-        let one = |(x, y, kind): (i32, i32, usize)| {
+        let one = |&(x, y, kind): &(i32, i32, usize)| {
             let off = f64::from(x).hypot(f64::from(y)) * width + 1.0;
             let class = REACHES.iter().position(|reach| off <= *reach as f64)?;
             let reach = REACHES[class] as i32;
-            Some(self.swept.offset(x - reach, y - reach, kind * REACHES.len() + class))
+            Some((x - reach, y - reach, kind * REACHES.len() + class))
         };
-        let all: Vec<_> = self.turned(marks, turn).collect();
-        let offsets: Vec<Offset> = all.iter().copied().filter_map(one).collect();
-        let beyond = all.len() - offsets.len();
+        let offsets = self.swept.offsets(cells.iter().filter_map(one));
+        let beyond = cells.len() - offsets.len();
         (offsets, beyond)
     }
 
-    /// Where the marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there; in
-    /// an order that jumps about.
-    fn turned(&self, marks: &[Mark], turn: usize) -> impl Iterator<Item = (i32, i32, usize)> {
+    /// Where marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there.
+    fn turned(&self, marks: &[Mark], turn: usize) -> Vec<(i32, i32, usize)> {
         let (sin, cos) = degrees(turn).to_radians().sin_cos();
         let middle = degrees(turn - turn % SWEEP + SWEEP / 2);
-        let one = move |mark: &Mark| {
+        let one = |mark: &Mark| {
             let p = mark.at;
-            let cell = |v: f64| (v / self.cell).round() as i32;
+            let cell = |v: f64| {
+                let v = v / self.cell;
+                (v + 0.5_f64.copysign(v)) as i32
+            };
             let kind = match mark.course {
                 None => COURSES,
                 Some(Course { degrees: seen, astray }) => {
@@ -191,14 +206,12 @@ impl Pyramid {
                     if off > astray + degrees(SWEEP) / 2.0 {
                         return None;
                     }
-                    (course * COURSES as f64 / 180.0).round() as usize % COURSES
+                    (course * COURSES as f64 / 180.0 + 0.5) as usize % COURSES
                 }
             };
             Some((cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), self.kinds[kind]?))
         };
-        let count = marks.len();
-        let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
-        (0..count).filter_map(move |k| one(&marks[k * stride % count]))
+        marks.iter().filter_map(one).collect()
     }
 
     /// Poses that explain no less than `least` of the returns, nor less than the best by more than the `margin` for what that
@@ -243,54 +256,27 @@ impl Pyramid {
     ) -> Option<(u16, Vec<Isometry2<f64>>)> {
         let mut open = self.coarsest(turned, least);
         let mut found: Vec<Isometry2<f64>> = Vec::new();
-        let mut best = 0;
-        while let Some((bound, strip)) = open.pop() {
-            let needed = least.max(asked.needed(best));
-            if bound < needed {
-                break;
+        let (mut best, mut needed) = (0, least);
+        while let Some(bound) = open.most().filter(|bound| *bound >= needed) {
+            // What lies in strips that promise so much comes to no more: then its poses are all there.
+            while let Some(strip) = open.by_bound[usize::from(bound)].strips.pop() {
+                self.below(&mut open, turned, strip, needed, left)?;
             }
-            let is_known = |pose: &Isometry2<f64>| found.iter().any(|f| is_near(f, pose, apart));
-            let (turn, left_column, low_row) = strip.place();
-            let Some(level) = usize::from(strip.level).checked_sub(1) else {
-                let pose = self.pose(turn, left_column, low_row);
-                if !is_known(&pose) {
-                    best = best.max(bound);
-                    if asked.needed(best) < least {
-                        return Some((best, found));
-                    }
-                    found.push(pose);
-                    if found.len() >= most {
-                        return None;
-                    }
-                }
-                continue;
-            };
-            let marks = turned.at(level, turn);
-            for (side, row) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-                // Half of its cells make one strip of the level below.
-                if (strip.passed >> (side * STRIP / 2)) & HALF == 0 {
+            let mut poses = std::mem::take(&mut open.by_bound[usize::from(bound)].poses);
+            poses.sort_unstable();
+            for place in poses {
+                let pose = self.pose(place);
+                if found.iter().any(|known| is_near(known, &pose, apart)) {
                     continue;
                 }
-                let (column, row) = (2 * left_column + side * STRIP, 2 * low_row + row);
-                if column >= self.width.div_ceil(1 << level)
-                    || row >= self.height.div_ceil(1 << level)
-                {
-                    continue;
+                best = best.max(bound);
+                if asked.needed(best) < least {
+                    return Some((best, found));
                 }
-                *left = left.checked_sub(1)?;
-                if level > 0 {
-                    open.extend(self.strip(level, marks, (turn, column, row), needed));
-                    continue;
-                }
-                let sums = self.levels[0].sums(marks, column as i32, row as i32, needed);
-                for (k, bound) in sums.into_iter().flatten().enumerate() {
-                    let column = column + k;
-                    if bound < needed || column >= self.width {
-                        continue;
-                    }
-                    if !is_known(&self.pose(turn, column, row)) {
-                        open.push(bound, Strip::new(level, (turn, column, row), 1));
-                    }
+                needed = asked.needed(best);
+                found.push(pose);
+                if found.len() >= most {
+                    return None;
                 }
             }
         }
@@ -302,19 +288,19 @@ impl Pyramid {
         let mut open = Open::default();
         let top = LEVELS - 1;
         for first in (0..TURNS).step_by(SWEEP) {
-            let (marks, beyond) = self.swept(turned.marks, first + SWEEP / 2);
+            let (marks, beyond) = self.swept(turned.cells(first + SWEEP / 2));
             if u16::from(FULL) * ((marks.len() + beyond) as u16) < needed {
                 continue;
             }
             let rough = needed.saturating_sub(u16::from(FULL) * beyond as u16);
-            for row in 0..self.height.div_ceil(1 << top) {
+            for row in (0..self.height.div_ceil(1 << top)).step_by(2) {
                 for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
                     if self.swept.sums(&marks, column as i32, row as i32, rough).is_none() {
                         continue;
                     }
                     for turn in first..first + SWEEP {
                         let marks = turned.at(top, turn);
-                        open.extend(self.strip(top, marks, (turn, column, row), needed));
+                        self.open(&mut open, top, marks, (turn, column, row), needed);
                     }
                 }
             }
@@ -322,25 +308,80 @@ impl Pyramid {
         open
     }
 
-    /// A strip of which at least one cell comes to `needed`.
-    fn strip(
+    /// Adds what lies in a strip, on the level below it.
+    fn below(
         &self,
-        level: usize,
-        marks: &[Offset],
-        (turn, column, row): (usize, usize, usize),
+        open: &mut Open,
+        turned: &mut Turned<'_>,
+        Strip { level, place: Place { turn, column, row }, passed }: Strip,
         needed: u16,
-    ) -> Option<(u16, Strip)> {
-        let sums = self.levels[level].sums(marks, column as i32, row as i32, needed)?;
-        let left = self.width.div_ceil(1 << level) - column;
-        let inside = || sums.iter().enumerate().take(left).filter(|(_, sum)| **sum >= needed);
-        let passed = inside().fold(0, |passed, (k, _)| passed | (1 << k));
-        let bound = inside().map(|(_, sum)| *sum).max()?;
-        Some((bound, Strip::new(level, (turn, column, row), passed)))
+        left: &mut usize,
+    ) -> Option<()> {
+        let level = usize::from(level) - 1;
+        let marks = turned.at(level, usize::from(turn));
+        for side in 0..2 {
+            // Half of its cells make two strips of the level below, one above the other.
+            if (passed >> (side * STRIP / 2)) & HALF == 0 {
+                continue;
+            }
+            let column = 2 * column as usize + side * STRIP;
+            if column < self.width.div_ceil(1 << level) {
+                *left = left.checked_sub(2)?;
+                self.open(
+                    open,
+                    level,
+                    marks,
+                    (usize::from(turn), column, 2 * row as usize),
+                    needed,
+                );
+            }
+        }
+        Some(())
     }
 
-    fn pose(&self, turn: usize, column: usize, row: usize) -> Isometry2<f64> {
-        let at = self.low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * self.cell;
-        Isometry2::new(at.coords, degrees(turn).to_radians())
+    /// Adds a strip and the one above it, where at least one cell comes to `needed`; of the finest level those cells.
+    fn open(
+        &self,
+        open: &mut Open,
+        level: usize,
+        marks: &Offsets,
+        (turn, column, row): (usize, usize, usize),
+        needed: u16,
+    ) {
+        let sums = self.levels[level].sums(marks, column as i32, row as i32, needed);
+        let Some(sums) = sums else { return };
+        let place = |column: usize, row: usize| Place {
+            turn: turn as u16,
+            column: column as u32,
+            row: row as u32,
+        };
+        let columns = self.width.div_ceil(1 << level) - column;
+        let inside = if columns < STRIP { (1 << columns) - 1 } else { u32::MAX };
+        for row in row..self.height.div_ceil(1 << level).min(row + 2) {
+            let upper = row % 2;
+            let passed = sums.reaching(upper, needed) & inside;
+            let mut bound = 0;
+            let mut left = passed;
+            while left != 0 {
+                let cell = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let sum = sums.at(upper, cell);
+                bound = bound.max(sum);
+                if level == 0 {
+                    open.at(sum).poses.push(place(column + cell, row));
+                }
+            }
+            if passed != 0 && level > 0 {
+                let level = level as u8;
+                open.at(bound).strips.push(Strip { level, place: place(column, row), passed });
+            }
+        }
+    }
+
+    fn pose(&self, Place { turn, column, row }: Place) -> Isometry2<f64> {
+        let [column, row] = [column, row].map(|n| f64::from(n) + 0.5);
+        let at = self.low + Vector2::new(column, row) * self.cell;
+        Isometry2::from_parts(at.into(), self.turns[usize::from(turn)])
     }
 }
 
@@ -359,60 +400,51 @@ pub(crate) fn is_near(a: &Isometry2<f64>, b: &Isometry2<f64>, apart: f64) -> boo
         && a.rotation.angle_to(&b.rotation).abs() <= 20_f64.to_radians()
 }
 
-/// Cells from one on, at a turn; on the finest level a single one.
+/// A turn, and a cell of some level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Strip {
-    level: u8,
+struct Place {
     turn: u16,
     column: u32,
     row: u32,
+}
+
+/// Cells from one on, at a turn.
+#[derive(Debug, Clone, Copy)]
+struct Strip {
+    level: u8,
+    place: Place,
     /// Which of its cells come to what is needed.
     passed: u32,
 }
 
-impl Strip {
-    fn new(level: usize, (turn, column, row): (usize, usize, usize), passed: u32) -> Self {
-        let [column, row] = [column, row].map(|n| n as u32);
-        Self { level: level as u8, turn: turn as u16, column, row, passed }
-    }
-
-    /// Its turn, its first column and its row.
-    fn place(&self) -> (usize, usize, usize) {
-        (usize::from(self.turn), self.column as usize, self.row as usize)
-    }
-}
-
-/// Strips that are still to be opened, by the most that any pose in them can explain: few are ever compared, since most end
-/// below what is needed and are never taken out.
+/// Strips that are still to be opened, and poses, by the most that any pose in them can explain. Most end below what is needed
+/// and are never looked at again.
 #[derive(Default)]
 struct Open {
-    by_bound: Vec<BinaryHeap<Reverse<Strip>>>,
+    by_bound: Vec<Promise>,
+}
+
+#[derive(Default)]
+struct Promise {
+    strips: Vec<Strip>,
+    poses: Vec<Place>,
 }
 
 impl Open {
-    fn push(&mut self, bound: u16, strip: Strip) {
+    fn at(&mut self, bound: u16) -> &mut Promise {
         let bound = usize::from(bound);
         if bound >= self.by_bound.len() {
-            self.by_bound.resize_with(bound + 1, BinaryHeap::new);
+            self.by_bound.resize_with(bound + 1, Promise::default);
         }
-        self.by_bound[bound].push(Reverse(strip));
+        &mut self.by_bound[bound]
     }
 
-    fn extend(&mut self, strip: Option<(u16, Strip)>) {
-        if let Some((bound, strip)) = strip {
-            self.push(bound, strip);
+    /// The most that any of them promises.
+    fn most(&mut self) -> Option<u16> {
+        while self.by_bound.pop_if(|last| last.strips.is_empty() && last.poses.is_empty()).is_some()
+        {
         }
-    }
-
-    /// The one that promises most, with what that is; of several that of the finest level, the least turn and place.
-    fn pop(&mut self) -> Option<(u16, Strip)> {
-        loop {
-            let bound = self.by_bound.len().checked_sub(1)?;
-            if let Some(Reverse(strip)) = self.by_bound[bound].pop() {
-                return Some((bound as u16, strip));
-            }
-            self.by_bound.pop();
-        }
+        self.by_bound.len().checked_sub(1).map(|bound| bound as u16)
     }
 }
 
@@ -421,48 +453,50 @@ mod tests {
     use super::*;
 
     /// Every pose of the raster, one after another, each return by itself.
-    fn all(pyramid: &Pyramid, marks: &[Mark]) -> Vec<(f64, Isometry2<f64>)> {
+    fn all(pyramid: &Pyramid, marks: &[Mark]) -> Vec<(f64, Isometry2<f64>, Place)> {
         let finest = &pyramid.levels[0];
-        let value = |x: i32, y: i32, kind: usize| {
-            let at = |v: i32| usize::try_from(v + BORDER as i32).ok();
-            let (Some(x), Some(y)) = (at(x), at(y)) else { return 0 };
-            let is_inside = x < finest.columns && y < finest.rows;
-            let row = (kind * finest.rows + y) * finest.stride;
-            if is_inside { finest.values[row + STRIP + x] } else { 0 }
-        };
         let mut scored = Vec::new();
         for turn in 0..TURNS {
-            let turned: Vec<_> = pyramid.turned(marks, turn).collect();
+            let turned = pyramid.turned(marks, turn);
             for row in 0..pyramid.height {
                 for column in 0..pyramid.width {
                     let one = |(x, y, kind): &(i32, i32, usize)| {
-                        f64::from(value(x + column as i32, y + row as i32, *kind))
+                        f64::from(finest.value(x + column as i32, y + row as i32, *kind))
                     };
                     let sum: f64 = turned.iter().map(one).sum();
+                    let [column, row] = [column, row].map(|n| n as u32);
+                    let place = Place { turn: turn as u16, column, row };
                     let share = sum / (f64::from(FULL) * marks.len() as f64);
-                    scored.push((share, pyramid.pose(turn, column, row)));
+                    scored.push((share, pyramid.pose(place), place));
                 }
             }
         }
         scored
     }
 
+    /// What is found is the best of each place, of the same the first turn and cell, in whatever order strips are opened.
     #[test]
     fn nothing_is_passed_over() {
         let (least, margin, apart) = (0.4, 0.2, 30.0);
-        for seed in 0..3 {
+        // Small ones, of which some returns lie outside from wherever, and one that goes over several strips.
+        for (seed, wide, count, range) in [
+            (0, 250.0, 12, 400.0),
+            (1, 250.0, 12, 400.0),
+            (2, 250.0, 12, 400.0),
+            (3, 900.0, 30, 90.0),
+        ] {
             let mut random = fastrand::Rng::with_seed(seed);
-            let mut point = |wide: f64| Point2::new(random.f64() * wide, random.f64() * 200.0);
-            let lines: Vec<Line> = (0..12)
-                .map(|_| Line { start: point(250.0), end: point(250.0), face: None })
-                .collect();
+            let mut point = || Point2::new(random.f64() * wide, random.f64() * 200.0);
+            let lines: Vec<Line> =
+                (0..count).map(|_| Line { start: point(), end: point(), face: None }).collect();
             let chart = Chart::new(lines);
             let pyramid = Pyramid::of(&chart);
-            let pose = Isometry2::new(Vector2::new(120.0, 90.0), 1.0 + f64::from(seed as u32));
+            let at = Vector2::new(wide / 2.0 - 5.0, 90.0);
+            let pose = Isometry2::new(at, 1.0 + f64::from(seed as u32));
             let marks: Vec<Mark> = (0..28)
                 .filter_map(|beam| {
                     let bearing = f64::from(beam) * 0.22;
-                    let (range, line) = chart.cast(&pose, bearing, 400.0);
+                    let (range, line) = chart.cast(&pose, bearing, range);
                     let line = &chart.lines()[line? as usize];
                     let along = pose.rotation.inverse() * line.direction();
                     let course = (beam % 3 > 0).then(|| Course::of(along * 50.0));
@@ -471,15 +505,18 @@ mod tests {
                 .collect();
             let margin = |best: f64| f64::max(margin, 1.0 - best);
             let found = pyramid.search(&marks, least, margin, apart, 10_000).expect("it ends");
-            let all = all(&pyramid, &marks);
-            let best = all.iter().map(|(score, _)| *score).fold(0.0, f64::max);
+            let mut all = all(&pyramid, &marks);
+            all.sort_by(|(a, _, this), (b, _, other)| b.total_cmp(a).then(this.cmp(other)));
+            let best = all[0].0;
             assert!(best > 0.5, "seed {seed}: {best}");
-            for (score, pose) in &all {
-                if *score >= least.max(best - margin(best)) {
-                    let near = found.iter().any(|known| is_near(known, pose, apart));
-                    assert!(near, "seed {seed}: {pose} explains {score:.2} of {best:.2}");
+            let mut places: Vec<Isometry2<f64>> = Vec::new();
+            for (score, pose, _) in all {
+                let is_known = places.iter().any(|known| is_near(known, &pose, apart));
+                if score >= least.max(best - margin(best)) && !is_known {
+                    places.push(pose);
                 }
             }
+            assert_eq!(found, places, "seed {seed}");
         }
     }
 }

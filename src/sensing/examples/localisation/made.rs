@@ -1,4 +1,5 @@
-//! A large building, made: rooms of many sizes along corridors, each with things in it.
+//! A large building, made: rooms of many sizes along corridors, each with things in it. No two are alike, but all walls run one
+//! of two ways: half a turn's scan fits nearly as well at many places, so that "several" with the true one is often all there is.
 
 use nalgebra::{Isometry2, Point2, Vector2};
 use orthoframe_sensing::{Chart, Line};
