@@ -26,6 +26,7 @@ pub(super) use names::before_passage;
 pub(super) use rehearsal::refused_on_floor;
 use rehearsal::{Known, rehearse};
 
+use super::atlas::Atlas;
 use super::belief::Belief;
 use super::directive::{Directive, Primitive};
 use super::event::{Ending, Event, Leg, Planned, Surprise};
@@ -107,7 +108,8 @@ impl<'r> Mission<'r> {
 
     /// The same, given a plan that names the places, doors and lifts of the map.
     pub(super) fn knowing(self, clock: &Clock<'_>) -> Self {
-        let (places, joins) = (clock.places_named.clone(), clock.joins.clone());
+        let Atlas { places_named, joins, .. } = &clock.atlas;
+        let (places, joins) = (places_named.clone(), joins.clone());
         Self { places, joins, lifts: clock.lifts.clone(), ..self }
     }
 

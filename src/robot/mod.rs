@@ -24,6 +24,7 @@ use orthoframe_strips as strips;
 use orthoframe_units as units;
 use orthoframe_vectors as vectors;
 
+mod atlas;
 mod barred;
 mod belief;
 mod directive;
