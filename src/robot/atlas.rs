@@ -65,6 +65,16 @@ impl Atlas {
         self.area_named(name).ok_or_else(|| Unknown(name.to_owned()))
     }
 
+    /// Where the robot may stand in an Area, each with its name.
+    pub(super) fn spots_in(&self, area: AreaId) -> impl Iterator<Item = (&str, At)> {
+        let places = self.places_named.iter().filter(move |place| place.area == area);
+        let places = places.map(|place| (&*place.name, At::Place(name_key(&place.name))));
+        let joins = self.joins.iter().filter(move |join| join.from == area);
+        let doors =
+            joins.map(move |join| (&*join.opening, At::Door(name_key(&join.opening), area)));
+        places.chain(doors)
+    }
+
     /// The passages and doors of a name.
     pub(super) fn joins_named<'a>(&'a self, key: &'a str) -> impl Iterator<Item = &'a Join> {
         self.joins.iter().filter(move |join| name_key(&join.opening) == key)
