@@ -52,6 +52,7 @@ mod orders;
 mod partition;
 mod passframes;
 mod planning;
+mod planning_ahead;
 mod planning_floor;
 mod planning_front;
 mod planning_interference;

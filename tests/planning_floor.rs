@@ -1,7 +1,7 @@
 //! Plans and the floor: in furnished buildings drawn at random every plan that is proposed can be driven, and where there is
 //! none a search through all ways of the floor finds none either.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::rc::Rc;
 
 use orthoframe::Engine;
@@ -19,7 +19,7 @@ use crate::planning_time::{building_of, scenario, texts};
 
 /// Where a robot stands, and which doors are open.
 #[derive(Debug, Clone)]
-struct State {
+pub(crate) struct State {
     area: AreaId,
     spot: Target,
     at: Point,
@@ -27,12 +27,16 @@ struct State {
 }
 
 /// What the floor allows, asked of a floor that is built anew for each setting of the doors.
-struct Judge<'w> {
+pub(crate) struct Judge<'w> {
     world: &'w World,
     floors: HashMap<Vec<DoorId>, Rc<FloorPlan>>,
 }
 
-impl Judge<'_> {
+impl<'w> Judge<'w> {
+    pub(crate) fn of(world: &'w World) -> Self {
+        Self { world, floors: HashMap::new() }
+    }
+
     fn floor(&mut self, open: &[DoorId]) -> Rc<FloorPlan> {
         let world = self.world;
         let build = || {
@@ -109,21 +113,22 @@ impl Judge<'_> {
         next
     }
 
-    /// A way to a place, if there is one.
-    fn way(&mut self, start: &State, goal: Target) -> Option<Vec<State>> {
+    /// The way of the fewest steps to a place, if there is one.
+    pub(crate) fn way(&mut self, start: &State, goal: Target) -> Option<Vec<State>> {
         let key = |state: &State| {
             let (x, y) = ((state.at.x * 10.0).round() as i64, (state.at.y * 10.0).round() as i64);
             (state.area, format!("{:?}", state.spot), x, y, state.open.clone())
         };
-        let (mut seen, mut open) = (HashSet::from([key(start)]), vec![vec![start.clone()]]);
-        while let Some(way) = open.pop() {
+        let (mut seen, mut open) =
+            (HashSet::from([key(start)]), VecDeque::from([vec![start.clone()]]));
+        while let Some(way) = open.pop_front() {
             let state = way.last()?;
             if state.spot == goal {
                 return Some(way);
             }
             for next in self.next(state) {
                 if seen.insert(key(&next)) {
-                    open.push(way.iter().cloned().chain([next]).collect());
+                    open.push_back(way.iter().cloned().chain([next]).collect());
                 }
             }
         }
@@ -160,7 +165,7 @@ impl Judge<'_> {
 }
 
 /// Four rooms with crates where they please, some before doors, and doors open, shut or missing.
-fn furnished(dice: &mut Dice, kind: DoorKind) -> World {
+pub(crate) fn furnished(dice: &mut Dice, kind: DoorKind) -> World {
     let widths = [260.0, 300.0];
     let (mut b, areas): (Builder, Vec<AreaId>) = building_of(kind, &widths, |_, _| {
         [Some(DoorState::OPEN), Some(DoorState::CLOSED), None][dice.below(5).saturating_sub(2)]
@@ -178,6 +183,16 @@ fn furnished(dice: &mut Dice, kind: DoorKind) -> World {
     b.world
 }
 
+/// The robot at a place, with the doors as they are; none where it does not fit in that room.
+pub(crate) fn begun(judge: &mut Judge<'_>, place: &Place) -> Option<State> {
+    let doors = judge.world.doors.values();
+    let open = doors.filter(|door| door.state.status == DoorStatus::Open);
+    let open: Vec<DoorId> = open.map(|door| door.id).collect();
+    let (_, frame) = judge.world.placement(place.area)?;
+    let at = judge.floor(&open).standing_at(frame.apply(place.at))?;
+    Some(State { area: place.area, spot: Target::Place(place.id), at, open })
+}
+
 /// Plans on a furnished building, beside the judge: how many plans there were, and how often none.
 fn judged(kind: DoorKind, seeds: std::ops::Range<u64>) -> (usize, usize) {
     let (mut plans, mut none) = (0, 0);
@@ -186,14 +201,8 @@ fn judged(kind: DoorKind, seeds: std::ops::Range<u64>) -> (usize, usize) {
         let world = furnished(&mut dice, kind);
         let (from, to) = (dice.below(4), dice.below(4));
         let place = |room: usize| world.places.values().nth(room).unwrap();
-        let mut judge = Judge { world: &world, floors: HashMap::new() };
-        let open = world.doors.values().filter(|door| door.state.status == DoorStatus::Open);
-        let open: Vec<DoorId> = open.map(|door| door.id).collect();
-        let (spot, area) = (Target::Place(place(from).id), place(from).area);
-        let (_, frame) = world.placement(area).unwrap();
-        let at = frame.apply(place(from).at);
-        let Some(at) = judge.floor(&open).standing_at(at) else { continue };
-        let start = State { area, spot, at, open };
+        let mut judge = Judge::of(&world);
+        let Some(start) = begun(&mut judge, place(from)) else { continue };
         let begin =
             format!("РОБОТ-НАХОДИТСЯ-В_(Комната-{from}) РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(Место-{from})");
         let end = format!("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(Место-{to})");

@@ -3,13 +3,18 @@
 //! **Invariants**: every goal lies in the centre space. Between a goal and the door that it is before stands nothing, and
 //! between a goal and the face of a thing that it is before no wall and no leaf of a door, shut or open.
 
+use std::collections::BTreeSet;
+
 use crate::map::{DoorKind, World};
-use crate::units::{AreaId, Deg, DoorId, InOrder as _, Point, Pose, ReplicaId, Vector};
+use crate::units::{
+    AreaId, Deg, DoorId, Gather as _, InOrder as _, Point, Pose, ReplicaId, Vector,
+};
 
 use super::Bounds;
 use super::anchor::Anchor;
 use super::blocked::NoRoute;
 use super::blocker::{Blocker, Obstacle};
+use super::cells::{CellKey, Piece};
 use super::opening::Opening;
 use super::plan::FloorPlan;
 use super::route::Target;
@@ -96,21 +101,49 @@ impl FloorPlan {
         let goals: Vec<Goal> = self
             .doorways_of(door)
             .filter_map(|d| Some((d, d.index_of(area)?)))
-            .filter_map(|(doorway, side)| self.stand(world, region, doorway, side))
+            .filter_map(|(doorway, side)| self.stand(world, self.admitting(region), doorway, side))
             .collect();
         if !goals.is_empty() {
             return goals;
         }
         // A door that leads outside joins no two Areas.
         let outer = self.blind_openings().iter().find(|o| o.door == Some(door) && o.area() == area);
-        outer.and_then(|o| self.stand(world, region, o, 0)).into_iter().collect()
+        outer.and_then(|o| self.stand(world, self.admitting(region), o, 0)).into_iter().collect()
+    }
+
+    /// Whether a cell is of a region of the floor, if one is named.
+    fn admitting(&self, region: Option<u32>) -> impl Fn(CellKey) -> bool + Copy {
+        move |cell| region.is_none_or(|r| self.region(cell) == r)
+    }
+
+    /// The piece of a Fragment's floor in which the robot stands that was sent to a doorway, on one side of it.
+    pub(super) fn piece_before(&self, world: &World, index: usize, side: usize) -> Option<Piece> {
+        let stand = self.stand(world, |_| true, &self.doorways()[index], side)?;
+        Some(self.piece_of(stand.anchor.cell))
+    }
+
+    /// All pieces in which it may.
+    pub(super) fn pieces_before(
+        &self,
+        world: &World,
+        index: usize,
+        side: usize,
+    ) -> BTreeSet<Piece> {
+        let doorway = &self.doorways()[index];
+        let Some(number) = self.number(doorway.areas[side]) else { return BTreeSet::new() };
+        let components = 0..self.fragments[number].cells.components;
+        let pieces = components.map(|component| (number as u32, component));
+        let is_before = |piece: &Piece| {
+            self.stand(world, |cell| self.piece_of(cell) == *piece, doorway, side).is_some()
+        };
+        pieces.filter(is_before).gather()
     }
 
     /// A place before a doorway from which its door is at hand: straight before its middle, clear of the leaves' way.
     fn stand(
         &self,
         world: &World,
-        region: Option<u32>,
+        admits: impl Fn(CellKey) -> bool + Copy,
         doorway: &Opening,
         side: usize,
     ) -> Option<Goal> {
@@ -126,7 +159,6 @@ impl FloorPlan {
         let is_clear = |p: Point| {
             swept.iter().all(|s| !s.contains(p, 0.0) && s.border_distance(p) >= reach - 1e-6)
         };
-        let admits = |cell: u32| region.is_none_or(|r| self.region((number, cell)) == r);
         let solid = self.solid_before(number, doorway);
         let is_at_hand = |p: Point| {
             // Some part of it, for a leaf is worked at one of its ends.
@@ -134,7 +166,7 @@ impl FloorPlan {
             face.into_iter().any(|at| is_open_between(p, at, &solid))
         };
         let try_at = |p: Point| {
-            let cell = cells.locate(p, 1e-6).filter(|&c| admits(c))?;
+            let cell = cells.locate(p, 1e-6).filter(|&c| admits((number, c)))?;
             (is_clear(p) && is_at_hand(p)).then_some((p, cell))
         };
         let along = (doorway.line().1 - doorway.line().0) / doorway.width().max(1e-9);
@@ -153,17 +185,22 @@ impl FloorPlan {
             return Some(Goal { anchor: Anchor::at(at, (number, cell)), heading });
         }
         let middle = doorway.on_face(side, 0.5);
-        self.nearest_before(region, doorway, side).filter(|goal| {
+        self.nearest_before(admits, doorway, side).filter(|goal| {
             (goal.anchor.at - middle).norm() <= reach + BEFORE_DOOR && is_at_hand(goal.anchor.at)
         })
     }
 
     /// The place in the Area on one side of a doorway that is nearest to it, however far.
-    fn nearest_before(&self, region: Option<u32>, doorway: &Opening, side: usize) -> Option<Goal> {
+    fn nearest_before(
+        &self,
+        admits: impl Fn(CellKey) -> bool,
+        doorway: &Opening,
+        side: usize,
+    ) -> Option<Goal> {
         let number = self.number(doorway.areas[side])? as u32;
-        let admits = |cell: u32| region.is_none_or(|r| self.region((number, cell)) == r);
         let straight = doorway.before(side, self.reach() + 5.0);
-        let (at, cell) = self.floor(number).cells.nearest(straight, admits)?;
+        let own = |cell| admits((number, cell));
+        let (at, cell) = self.floor(number).cells.nearest(straight, own)?;
         let heading = facing(at, doorway.middle());
         Some(Goal { anchor: Anchor::at(at, (number, cell)), heading })
     }
@@ -198,15 +235,15 @@ impl FloorPlan {
                 heading: None,
             }]);
         }
-        let region = self.region(start.cell);
+        let admits = self.admitting(Some(self.region(start.cell)));
         let mut goals: Vec<Goal> = self
             .doorways()
             .iter()
             .filter_map(|d| Some((d, d.index_of(area)?)))
             .filter_map(|(d, side)| {
-                let stand = self.stand(world, Some(region), d, side);
+                let stand = self.stand(world, admits, d, side);
                 // In the Area is in the Area, whatever stands before the doorway.
-                let mut goal = stand.or_else(|| self.nearest_before(Some(region), d, side))?;
+                let mut goal = stand.or_else(|| self.nearest_before(admits, d, side))?;
                 // One enters looking ahead.
                 goal.heading = goal.heading.map(|h| h + Deg::of(180.0));
                 Some(goal)

@@ -424,6 +424,13 @@ impl Mesh {
         self.buckets().along(a, b, found);
     }
 
+    /// The cells that may meet a box.
+    pub(super) fn meeting(&self, bounds: &Bounds) -> Vec<u32> {
+        let mut found = Vec::new();
+        self.buckets().meeting(bounds, &mut found);
+        found
+    }
+
     /// The stretches of segment `a`-`b` that lie on the floor, as fractions of its length.
     pub(super) fn stretches(&self, a: Point, b: Point) -> Vec<(f64, f64)> {
         let (mut near, mut stretches) = (Vec::new(), Vec::new());

@@ -19,7 +19,7 @@ use crate::map::{DoorState, RobotProfile, World};
 use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
 
 use super::buckets::Buckets;
-use super::cells::CellKey;
+use super::cells::{CellKey, Piece};
 use super::coverage::{self, Coverage};
 use super::doorways::Doorways;
 use super::floor::FragmentFloor;
@@ -38,7 +38,7 @@ use super::{Bounds, Passframe, PassframeId, Region};
 pub struct FloorPlan {
     pub(super) map: MapId,
     pub(super) robot: RobotProfile,
-    states: DoorStates,
+    pub(super) states: DoorStates,
     pub(super) zones: Arc<Vec<PlacedZone>>,
     pub(super) scene: Arc<Scene>,
     pub(super) index: Arc<ReplicaIndex>,
@@ -209,7 +209,12 @@ impl FloorPlan {
 
     /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
     pub(super) fn region(&self, cell: CellKey) -> u32 {
-        self.network.region((cell.0, self.floor(cell.0).cells.component(cell.1)))
+        self.network.region(self.piece_of(cell))
+    }
+
+    /// The piece of its Fragment's floor that a cell is of.
+    pub(super) fn piece_of(&self, (number, cell): CellKey) -> Piece {
+        (number, self.floor(number).cells.component(cell))
     }
 
     /// Whether the robot can pass from a Fragment through a doorway as it stands.

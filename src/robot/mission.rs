@@ -26,6 +26,8 @@ pub(super) use names::before_passage;
 pub(super) use rehearsal::refused_on_floor;
 use rehearsal::{Known, rehearse};
 
+use super::ahead::{Ahead, Lasting};
+use super::atlas::Atlas;
 use super::belief::Belief;
 use super::directive::{Directive, Primitive};
 use super::event::{Ending, Event, Leg, Planned, Surprise};
@@ -82,6 +84,8 @@ pub struct Mission<'r> {
     changes: BTreeMap<Obstruction, usize>,
     /// Whether the plan is wanted that is driven in the least time.
     in_time: bool,
+    /// What of the floors nothing changes; found where it is first asked for.
+    lasting: Option<Lasting>,
 }
 
 impl<'r> Mission<'r> {
@@ -95,8 +99,20 @@ impl<'r> Mission<'r> {
         limits: Limits,
     ) -> Self {
         let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
-        let (changes, in_time) = (BTreeMap::new(), false);
-        Self { belief, domain, relations, rules, limits, places, joins, lifts, changes, in_time }
+        let (changes, in_time, lasting) = (BTreeMap::new(), false, None);
+        Self {
+            belief,
+            domain,
+            relations,
+            rules,
+            limits,
+            places,
+            joins,
+            lifts,
+            changes,
+            in_time,
+            lasting,
+        }
     }
 
     /// The same, that plans for the least driven time, however many steps it takes.
@@ -107,7 +123,8 @@ impl<'r> Mission<'r> {
 
     /// The same, given a plan that names the places, doors and lifts of the map.
     pub(super) fn knowing(self, clock: &Clock<'_>) -> Self {
-        let (places, joins) = (clock.places_named.clone(), clock.joins.clone());
+        let Atlas { places_named, joins, .. } = &clock.atlas;
+        let (places, joins) = (places_named.clone(), joins.clone());
         Self { places, joins, lifts: clock.lifts.clone(), ..self }
     }
 
@@ -153,7 +170,14 @@ impl<'r> Mission<'r> {
         };
         let (solved, now_learned) = match in_time {
             Some(solved) => (solved, None),
-            None => solve_again(None, self.domain, &problem, &self.limits, learned)?,
+            None => {
+                let (belief, near) = (&self.belief, self.rules.hold_cm());
+                let known = self.lasting.take().filter(|lasting| lasting.holds(belief));
+                let lasting =
+                    self.lasting.insert(known.unwrap_or_else(|| Lasting::of(belief, near)));
+                let mut ahead = Ahead { belief, relations, places: &places, lasting };
+                solve_again(Some(&mut ahead), self.domain, &problem, &self.limits, learned)?
+            }
         };
         let learned_before = learned.is_some_and(|learned| learned.serves(&solved.task));
         let steps = match solved.outcome.plan() {

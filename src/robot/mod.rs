@@ -9,11 +9,12 @@
 //! What a directive asks of the vehicle is read from its effects, never from its name. Every surprise must teach
 //! something, or the mission ends. It ends at once when it is told to stop, and what is believed is so. A vehicle is
 //! believed to be only where it can be (`robot/reins`); one that fails ends the mission, and of the order under way
-//! nothing is assumed. A plan is begun only after it was carried out in a simulated world that is the
-//! belief itself (`robot/mission/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
-//! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
-//! free floor that the route was made from. What is random is drawn from one seed, so a run repeats itself; behind its
-//! senses (`simulator/senses`) the simulated robot tells nothing else of its world, and a [`Pilot`] finds where it is.
+//! nothing is assumed. What the floor refuses for good is no part of a proof (`robot/ahead`), and a plan is begun only after
+//! it was carried out in a simulated world that is the belief itself (`robot/mission/rehearsal`); what that finds out is
+//! told to the next plan. What lies on or in a thing goes with it, in the hand and after (`semantics/cargo`). The
+//! simulator's collision test knows nothing of the free floor that the route was made from. What is random is drawn from
+//! one seed, so a run repeats itself; behind its senses (`simulator/senses`) the simulated robot tells nothing else of its
+//! world, and a [`Pilot`] finds where it is.
 
 use orthoframe_geometry as geometry;
 use orthoframe_graphplan as graphplan;
@@ -24,6 +25,8 @@ use orthoframe_strips as strips;
 use orthoframe_units as units;
 use orthoframe_vectors as vectors;
 
+mod ahead;
+mod atlas;
 mod barred;
 mod belief;
 mod directive;

@@ -66,7 +66,7 @@ impl<'a> Terrain<'a> {
         let (at, station) = if let Some(place) = begins(predicate::ROBOT_AT_PLACE) {
             (self.clock.stands_at(&place, None)?, Station::Place(place))
         } else {
-            let room = self.clock.area_named(&begins(predicate::ROBOT_IN)?)?;
+            let room = self.clock.atlas.area_named(&begins(predicate::ROBOT_IN)?)?;
             let door = begins(predicate::ROBOT_AT_DOOR)?;
             (self.clock.stands_at(&door, Some(room))?, Station::Door(door))
         };

@@ -16,14 +16,14 @@ use std::rc::Rc;
 
 use crate::geometry::{Blocker, DoorStates, FloorPlan, LIFT_WAIT, Method, Ride, Target};
 use crate::map::{DoorState, DoorStatus, Replica, World, set_open, stands};
-use crate::semantics::planning::{self, PlaceSource, PlanPlace, RobotAt, RobotState};
-use crate::semantics::{Join, Lift, Relations, lifts, predicate};
+use crate::semantics::planning::{self, RobotAt, RobotState};
+use crate::semantics::{Lift, Relations, lifts, predicate};
 use crate::strips::{Domain, OperatorId, Task};
 use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, Pose, ReplicaId, name_key};
 
+use super::atlas::{At, Atlas, Unknown};
 use super::belief::Spot;
-use super::directive::{Directive, Effect, Primitive};
-use super::mission::before_passage;
+use super::directive::{Directive, Primitive};
 
 /// Seconds to press a button.
 pub(super) const SWITCH_TIME: f64 = 3.0;
@@ -35,13 +35,6 @@ pub(super) const DOOR_TIME: f64 = 4.0;
 pub(super) const PUSH_TIME: f64 = 6.0;
 /// Seconds to take a thing or to let it go.
 pub(super) const GRASP_TIME: f64 = 5.0;
-
-/// Where the robot may stand.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-enum At {
-    Place(String),
-    Door(String, AreaId),
-}
 
 /// How the doors of a floor are set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -69,6 +62,12 @@ enum Untimed {
     Unknown(String),
 }
 
+impl From<Unknown> for Untimed {
+    fn from(Unknown(name): Unknown) -> Self {
+        Self::Unknown(name)
+    }
+}
+
 /// Tells how long directives take in a world, and for which of them its floor has no way.
 pub(super) struct Clock<'a> {
     world: &'a World,
@@ -77,11 +76,7 @@ pub(super) struct Clock<'a> {
     open: OnceCell<BTreeMap<MapId, FloorPlan>>,
     /// The same with every door shut, and a world with nothing about that a plan could put away.
     shut: OnceCell<(World, BTreeMap<MapId, FloorPlan>)>,
-    areas: HashMap<String, AreaId>,
-    places: HashMap<String, (AreaId, PlaceSource)>,
-    points: HashMap<String, Point>,
-    pub(super) places_named: Vec<PlanPlace>,
-    pub(super) joins: Vec<Join>,
+    pub(super) atlas: Atlas,
     pub(super) lifts: Vec<Lift>,
     /// A place in each piece of an Area's floor.
     rests: HashMap<(AreaId, Doors), Vec<Point>>,
@@ -95,24 +90,18 @@ impl<'a> Clock<'a> {
         relations: &Relations,
         floors: &'a BTreeMap<MapId, FloorPlan>,
     ) -> Self {
-        let symbol = |id: AreaId| (name_key(relations.symbols().area(id)), id);
         let state = world.areas.keys().next().map(|&area| RobotState {
             area,
             at: RobotAt::Elsewhere,
             holds: None,
         });
         let places = state.map(|state| planning::initial(world, relations, &state).places);
-        let places_named = places.unwrap_or_default();
         Self {
             world,
             floors,
             open: OnceCell::new(),
             shut: OnceCell::new(),
-            areas: world.areas.keys().copied().map(symbol).collect(),
-            places: places_named.iter().map(|p| (name_key(&p.name), (p.area, p.source))).collect(),
-            points: HashMap::new(),
-            places_named,
-            joins: relations.joins(),
+            atlas: Atlas::of(world, relations, places.unwrap_or_default()),
             lifts: lifts(world, relations),
             rests: HashMap::new(),
             stands: HashMap::new(),
@@ -122,11 +111,7 @@ impl<'a> Clock<'a> {
 
     /// Points that have names for the time of a mission are places as well.
     pub(super) fn knowing(mut self, spots: &[Spot]) -> Self {
-        for spot in spots {
-            let key = name_key(&spot.name);
-            self.places.insert(key.clone(), (spot.area, PlaceSource::Robot));
-            self.points.insert(key, spot.pose.at);
-        }
+        self.atlas.learn(spots);
         self
     }
 
@@ -140,7 +125,7 @@ impl<'a> Clock<'a> {
         directive.primitives().iter().all(|primitive| {
             let allowed = match primitive {
                 Primitive::GoToPlace(_) | Primitive::GoToDoor(_) | Primitive::Cross { .. } => {
-                    self.drive_of(directive, primitive).and_then(|(from, to)| self.leads(from, to))
+                    self.leads_by(directive, primitive)
                 }
                 Primitive::Ride { lift, to, .. } => self.ride(directive, lift, to).map(|_| true),
                 Primitive::SetDoor { door, status: DoorStatus::Open } => Ok(self.swings(door)),
@@ -148,6 +133,11 @@ impl<'a> Clock<'a> {
             };
             !matches!(allowed, Ok(false) | Err(Untimed::NoWay))
         })
+    }
+
+    fn leads_by(&mut self, directive: &Directive, primitive: &Primitive) -> Result<bool, Untimed> {
+        let (from, to) = self.atlas.drive_of(directive, primitive)?;
+        self.leads(from, to)
     }
 
     /// Whether there is a way. In one piece of a room's floor there is, where no zone says in which direction to drive; and
@@ -176,8 +166,7 @@ impl<'a> Clock<'a> {
     /// Whether nothing that stays where it is stops a door's leaves.
     fn swings(&self, door: &str) -> bool {
         let key = name_key(door);
-        let of_name = |join: &&Join| name_key(&join.opening) == key;
-        let Some(join) = self.joins.iter().find(of_name) else { return true };
+        let Some(join) = self.atlas.joins_named(&key).next() else { return true };
         let map = self.world.placement(join.from).map(|(map, _)| map);
         let floor = map.and_then(|map| self.floor(map, Doors::Shut));
         let (Some(door), Some((floor, world))) = (join.door, floor) else { return true };
@@ -213,7 +202,7 @@ impl<'a> Clock<'a> {
         let look_round = 360.0 / self.world.robot.turn_rate;
         Ok(match primitive {
             Primitive::GoToPlace(_) | Primitive::GoToDoor(_) | Primitive::Cross { .. } => {
-                let (from, to) = self.drive_of(directive, primitive)?;
+                let (from, to) = self.atlas.drive_of(directive, primitive)?;
                 self.drive(from, to)?
             }
             Primitive::SetDoor { .. } | Primitive::SetOpen { .. } => DOOR_TIME,
@@ -229,62 +218,12 @@ impl<'a> Clock<'a> {
         })
     }
 
-    /// Whence and whither a primitive drives that does.
-    fn drive_of(&self, directive: &Directive, primitive: &Primitive) -> Result<(At, At), Untimed> {
-        let from = self.begins(directive)?;
-        let to = match primitive {
-            Primitive::GoToPlace(place) => At::Place(name_key(place)),
-            Primitive::Cross { door, into } => At::Door(name_key(door), self.area(into)?),
-            Primitive::GoToDoor(door) => {
-                let area = match &from {
-                    At::Door(_, area) => *area,
-                    At::Place(place) => self.places[place].0,
-                };
-                At::Door(name_key(door), area)
-            }
-            _ => return Err(Untimed::Unknown(directive.to_string())),
-        };
-        Ok((from, to))
-    }
-
-    fn area(&self, name: &str) -> Result<AreaId, Untimed> {
-        let area = self.areas.get(&name_key(name));
-        area.copied().ok_or_else(|| Untimed::Unknown(name.to_owned()))
-    }
-
-    /// Where the robot stands before a directive, by what that needs.
-    fn begins(&self, directive: &Directive) -> Result<At, Untimed> {
-        let needed = |predicate: &str| -> Option<&Effect> {
-            let key = name_key(predicate);
-            directive.needs.iter().find(|need| need.predicate == key)
-        };
-        if let Some(Effect { args, .. }) = needed(predicate::ROBOT_AT_PLACE)
-            && let [place] = args.as_slice()
-        {
-            let key = name_key(place);
-            let is_known = self.places.contains_key(&key);
-            return if is_known {
-                Ok(At::Place(key))
-            } else {
-                Err(Untimed::Unknown(place.clone()))
-            };
-        }
-        if let (Some(door), Some(room)) =
-            (needed(predicate::ROBOT_AT_DOOR), needed(predicate::ROBOT_IN))
-            && let ([door], [room, ..]) = (door.args.as_slice(), room.args.as_slice())
-        {
-            return Ok(At::Door(name_key(door), self.area(room)?));
-        }
-        // The rule asks for no place to begin from.
-        Err(Untimed::Unknown(directive.to_string()))
-    }
-
     fn stands(&mut self, spot: &At, doors: Doors) -> Result<Rc<[Stand]>, Untimed> {
         let key = (spot.clone(), doors);
         if let Some(known) = self.stands.get(&key) {
             return Ok(Rc::clone(known));
         }
-        let area = self.area_of(spot)?;
+        let area = self.atlas.area_of(spot)?;
         if !self.rests.contains_key(&(area, doors)) {
             let map = self.world.placement(area).map(|(map, _)| map);
             let floor = map.and_then(|map| self.floor(map, doors));
@@ -294,16 +233,6 @@ impl<'a> Clock<'a> {
         let found: Rc<[Stand]> = self.find_stands(spot, doors)?.into();
         self.stands.insert(key, Rc::clone(&found));
         Ok(found)
-    }
-
-    fn area_of(&self, spot: &At) -> Result<AreaId, Untimed> {
-        match spot {
-            At::Door(_, area) => Ok(*area),
-            At::Place(name) => {
-                let known = self.places.get(name).map(|(area, _)| *area);
-                known.ok_or_else(|| Untimed::Unknown(name.clone()))
-            }
-        }
     }
 
     /// A floor, and the world that it is of.
@@ -329,40 +258,20 @@ impl<'a> Clock<'a> {
 
     /// None where the robot cannot come to stand there.
     fn find_stands(&self, spot: &At, doors: Doors) -> Result<Vec<Stand>, Untimed> {
-        let (area, unknown) = (self.area_of(spot)?, |name: &str| Untimed::Unknown(name.to_owned()));
+        let area = self.atlas.area_of(spot)?;
         let Some((map, _)) = self.world.placement(area) else { return Ok(Vec::new()) };
         let Some((floor, world)) = self.floor(map, doors) else { return Ok(Vec::new()) };
-        let target = match spot {
-            At::Place(name) => match self.places[name].1 {
-                PlaceSource::Named(id) => Target::Place(id),
-                PlaceSource::Before(id) if world.replicas.contains_key(&id) => Target::Replica(id),
-                // It is put away.
-                PlaceSource::Before(id) => {
-                    let placed = self.floors[&map].scene().replicas.get(&id);
-                    let Some(placed) = placed else { return Ok(Vec::new()) };
+        let target = match self.atlas.target_of(world, floor, spot)? {
+            // It is put away.
+            Some(Target::Replica(id)) if !world.replicas.contains_key(&id) => {
+                let placed = self.floors[&map].scene().replicas.get(&id);
+                placed.map(|placed| {
                     Target::Point(nalgebra::center(&placed.bounds.min, &placed.bounds.max))
-                }
-                PlaceSource::Robot => match self.points.get(name) {
-                    Some(at) => Target::Point(*at),
-                    None => return Err(unknown(name)),
-                },
-            },
-            At::Door(name, _) => {
-                let of_name = |join: &&Join| name_key(&join.opening) == *name;
-                let mut named = self.joins.iter().filter(of_name).peekable();
-                named.peek().ok_or_else(|| unknown(name))?;
-                // A rule may speak of the robot at a door in a room that the door does not lead to.
-                let Some(join) = named.find(|join| join.from == area) else {
-                    return Ok(Vec::new());
-                };
-                match join.door {
-                    Some(door) => Target::Door { door, area },
-                    None => {
-                        before_passage(world, floor, join, area).ok_or_else(|| unknown(name))?
-                    }
-                }
+                })
             }
+            target => target,
         };
+        let Some(target) = target else { return Ok(Vec::new()) };
         let stand = |(piece, &from): (usize, &Point)| {
             let within = Some(&[area][..]);
             let way = floor.route_within(world, from, target, Method::Shortest, within).ok()?;
@@ -380,10 +289,6 @@ impl<'a> Clock<'a> {
         let stands = self.stands(&spot, Doors::AsTheyAre).ok()?;
         let [stand] = &stands[..] else { return None };
         Some((stand.map, Pose { at: stand.at, heading: stand.heading.unwrap_or_default() }))
-    }
-
-    pub(super) fn area_named(&self, name: &str) -> Option<AreaId> {
-        self.areas.get(&name_key(name)).copied()
     }
 
     /// Two stands in one piece of a room's floor, with its doors as they are where that will do.
@@ -417,9 +322,7 @@ impl<'a> Clock<'a> {
     /// the way.
     fn through(&mut self, from: &At, to: &At) -> Result<Option<f64>, Untimed> {
         let At::Door(door, _) = to else { return Ok(None) };
-        let joins = self.joins.iter();
-        let door =
-            joins.filter_map(|join| (name_key(&join.opening) == *door).then_some(join.door?));
+        let door = self.atlas.joins_named(door).filter_map(|join| join.door);
         let opened: DoorStates = door.take(1).map(|door| (door, DoorState::OPEN)).gather();
         for doors in [Doors::AsTheyAre, Doors::Open, Doors::Shut] {
             let (starts, ends) = (self.stands(from, doors)?, self.stands(to, doors)?);
@@ -481,7 +384,7 @@ impl<'a> Clock<'a> {
     /// The lift opens its own door, where it has one.
     fn opens(&self, door: &str) -> f64 {
         let key = name_key(door);
-        let mut named = self.joins.iter().filter(|join| name_key(&join.opening) == key);
+        let mut named = self.atlas.joins_named(&key);
         if named.any(|join| join.door.is_some()) { DOOR_TIME } else { 0.0 }
     }
 
@@ -492,7 +395,7 @@ impl<'a> Clock<'a> {
         let key = name_key(predicate::ROBOT_IN);
         let room = directive.needs.iter().find(|need| need.predicate == key);
         let from = room.and_then(|room| room.args.first()).ok_or_else(|| unknown(lift))?;
-        let (from, to) = (self.area(from)?, self.area(to)?);
+        let (from, to) = (self.atlas.area(from)?, self.atlas.area(to)?);
         let height = |cabin: AreaId| {
             let (map, frame) = self.world.placement(cabin)?;
             let storey = self.world.domain.maps.iter().find(|m| m.map == map);

@@ -214,7 +214,8 @@ impl RelationRules {
     }
 
     /// How far from a thing what it bears or holds may be, by any profile's thresholds, cm.
-    pub(crate) fn hold_cm(&self) -> f64 {
+    #[must_use]
+    pub fn hold_cm(&self) -> f64 {
         let over = thresholds::greatest(&self.program, "support gap up");
         over.max(self.reach.sink).max(self.reach.escape) as f64 / 100.0
     }
