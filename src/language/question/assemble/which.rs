@@ -6,7 +6,9 @@ use super::Frame;
 use super::Subject;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
-use crate::question::query::{Best, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing};
+use crate::question::query::{
+    Best, Extreme, Filter, Head, Noun, Quantity, Query, Rel, Restriction, Thing,
+};
 
 impl Frame<'_, '_> {
     pub(super) fn counted(&self) -> Option<Query> {
@@ -240,6 +242,8 @@ impl Frame<'_, '_> {
         let other = self.nouns.iter().find(|s| asked.is_none_or(|a| a.at != s.at));
         if let (Some(rel), Some(of)) = (link, other) {
             let of_noun = self.with_rest(of.noun.clone(), &[]);
+            let counted = of.noun.best.is_none()
+                && (of.noun.count.is_some() || of.noun.quantity != Quantity::Exactly);
             if let Some(asked) = asked {
                 let rooms = self.is_rooms(&asked.noun);
                 if rooms && matches!(rel, Rel::In | Rel::On) {
@@ -250,12 +254,23 @@ impl Frame<'_, '_> {
                         || self.has(Mark::Exists)
                         || self.has(Mark::Have)
                         || of.noun.plural
-                        || of.noun.indefinite;
+                        || of.noun.indefinite
+                        || counted;
                     let spoken = of.noun.head.things.is_some();
                     if general && !spoken && !self.is_storeys(&asked.noun) {
                         return Some(self.rooms_with(&asked.noun));
                     }
                     return Some(Query::RoomOf(of_noun));
+                }
+                // «На каком столе пять тарелок?»: which of them bears so many.
+                let part = |k: &_| matches!(self.lexicon.kind(*k).extension, Extension::Part(_));
+                let parts = asked.noun.head.kinds.iter().any(part);
+                if counted && !parts && matches!(rel, Rel::In | Rel::On) {
+                    let mut noun = Noun { indefinite: true, ..asked.noun.clone() };
+                    let anchors = vec![Noun { indefinite: true, ..of_noun }];
+                    let negated = self.negated;
+                    noun.restrictions.push(Restriction { rel: Rel::Bears, anchors, negated });
+                    return Some(Query::Find(noun));
                 }
                 return Some(Query::Anchor { rel, of: of_noun, what: Some(asked.noun.clone()) });
             }
