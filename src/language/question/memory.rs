@@ -283,6 +283,10 @@ impl Exchange {
                 aside: others().collect::<BTreeSet<Thing>>().into_iter().collect(),
                 ..Self::default()
             },
+            // "What else is there?": the place was not called by a name.
+            query if answer.things.len() > 1 && query.is_of_there() => {
+                Self { listed: answer.things.clone(), aside: others().collect(), ..Self::default() }
+            }
             _ if answer.things.len() > 1 => Self {
                 topics: others().collect(),
                 listed: answer.things.clone(),

@@ -22,7 +22,7 @@ use place::{Spot, case_of};
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
-use super::memory::{Ordered, Waiting};
+use super::memory::{Exchange, Ordered, Waiting};
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::uses;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
@@ -91,7 +91,7 @@ impl Asker<'_> {
             ["те", "тех"].contains(&pair[0].as_str())
                 && (pair[1] == "что" || pair[1].starts_with("котор"))
         };
-        if let Some(pair) = word_keys(text).windows(2).find(|pair| several(pair)) {
+        if let Some(pair) = word_keys(&gathered).windows(2).find(|pair| several(pair)) {
             return Err(misread(Doubt::not_understood(&pair.join(" "))));
         }
         let said = word_keys(&gathered);
@@ -164,7 +164,8 @@ impl Asker<'_> {
         }
     }
 
-    /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её»: which of several that were told at once, nothing says.
+    /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её», "What is next to the mug? – A plate. – Bring it": which of
+    /// several that were told at once, or of what was asked by and what was told, nothing says.
     fn one_of_listed(&self, text: &str, sentence: &Sentence<'_>, memory: &Memory) -> Option<Doubt> {
         let exchange = memory.exchanges.first()?;
         let (reference, pronoun) = sentence.items().into_iter().find_map(|item| match item {
@@ -177,10 +178,14 @@ impl Asker<'_> {
         let knowledge = self.knowledge(sentence.language, memory);
         let (_, sort) = *command::clauses(text).first()?;
         let fits = |t: &&Thing| knowledge.can(sort, **t) && knowledge.agrees(pronoun, **t);
-        let topic = exchange.topic();
-        let candidates: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
-        (topic.as_ref().filter(fits).is_none() && candidates.len() > 1)
-            .then_some(Doubt::Ambiguous { reference, candidates })
+        // What it was asked by may be meant as well; and so may what was spoken of before and has not been left since.
+        let before = memory.exchanges.get(1).map_or(&[][..], Exchange::topics);
+        let topics = exchange.topics().iter();
+        let topics = topics.enumerate().filter(|(n, t)| *n == 0 || before.contains(t));
+        let topics = topics.map(|(_, topic)| topic).filter(fits);
+        let mut candidates: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
+        candidates.extend(topics.filter(|t| !exchange.members().contains(t)));
+        (candidates.len() > 1).then_some(Doubt::Ambiguous { reference, candidates })
     }
 
     /// A name, number or description of a text that its rewriting has lost, and not because it is not meant. What a state
