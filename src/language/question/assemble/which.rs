@@ -262,6 +262,13 @@ impl Frame<'_, '_> {
                     }
                     return Some(Query::RoomOf(of_noun));
                 }
+                // «За какой дверью ванная?»: which leads there.
+                if rel == Rel::Behind && self.is_doors(&asked.noun) && self.is_area(&of_noun) {
+                    let mut doors = Noun { indefinite: true, ..asked.noun.clone() };
+                    let (anchors, negated) = (vec![of_noun], self.negated);
+                    doors.restrictions.push(Restriction { rel: Rel::To, anchors, negated });
+                    return Some(Query::Find(doors));
+                }
                 // «На каком столе пять тарелок?»: which of them bears so many.
                 let part = |k: &_| matches!(self.lexicon.kind(*k).extension, Extension::Part(_));
                 let parts = asked.noun.head.kinds.iter().any(part);
@@ -275,6 +282,14 @@ impl Frame<'_, '_> {
                 return Some(Query::Anchor { rel, of: of_noun, what: Some(asked.noun.clone()) });
             }
             return Some(Query::Anchor { rel, of: of_noun, what: None });
+        }
+        // «В каких комнатах?»: of what, no word says.
+        let small = |(mark, _): &(Mark, usize)| {
+            matches!(mark, Mark::Which | Mark::What | Mark::Be | Mark::And | Mark::The | Mark::A)
+        };
+        let says_no_more = self.spots.is_empty() && self.values.is_empty() && !self.you;
+        if before.is_some() && other.is_none() && says_no_more && self.marks.iter().all(small) {
+            return None;
         }
         // "What are you standing next to?"
         if let (Some(rel), None, true, true) = (link, other, self.you, self.spots.is_empty()) {

@@ -121,9 +121,12 @@ impl Asker<'_> {
             Ok(mut edits) => {
                 edits.order_by_key(|edit| edit.at.start);
                 if !edits.iter().any(|edit| edit.object)
-                    && let Some(doubt) = self.one_of_listed(&text, &sentence, memory)
+                    && let Some((at, reference, candidates)) =
+                        self.one_of_listed(&text, &sentence, memory)
                 {
-                    return Err(misread(doubt));
+                    let told = candidates.clone();
+                    memory.waiting = Some(Waiting { text, at, candidates: told, language });
+                    return Err(misread(Doubt::Ambiguous { reference, candidates }));
                 }
                 let object = edits.iter().find(|edit| edit.object);
                 let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
@@ -166,26 +169,35 @@ impl Asker<'_> {
 
     /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её», "What is next to the mug? – A plate. – Bring it": which of
     /// several that were told at once, or of what was asked by and what was told, nothing says.
-    fn one_of_listed(&self, text: &str, sentence: &Sentence<'_>, memory: &Memory) -> Option<Doubt> {
-        let exchange = memory.exchanges.first()?;
-        let (reference, pronoun) = sentence.items().into_iter().find_map(|item| match item {
-            Item::Noun(phrase) => Some((phrase.noun.text.clone(), phrase.pronoun?)),
-            _ => None,
-        })?;
+    fn one_of_listed(
+        &self,
+        text: &str,
+        sentence: &Sentence<'_>,
+        memory: &Memory,
+    ) -> Option<(Range<usize>, String, Vec<Thing>)> {
+        let (words, reference, pronoun) =
+            sentence.items().into_iter().find_map(|item| match item {
+                Item::Noun(phrase) => Some((phrase.words, phrase.noun.text, phrase.pronoun?)),
+                _ => None,
+            })?;
         if matches!(pronoun, Pronoun::They | Pronoun::There) {
             return None;
         }
         let knowledge = self.knowledge(sentence.language, memory);
         let (_, sort) = *command::clauses(text).first()?;
         let fits = |t: &&Thing| knowledge.can(sort, **t) && knowledge.agrees(pronoun, **t);
-        // What it was asked by may be meant as well; and so may what was spoken of before and has not been left since.
-        let before = memory.exchanges.get(1).map_or(&[][..], Exchange::topics);
-        let topics = exchange.topics().iter();
-        let topics = topics.enumerate().filter(|(n, t)| *n == 0 || before.contains(t));
-        let topics = topics.map(|(_, topic)| topic).filter(fits);
-        let mut candidates: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
-        candidates.extend(topics.filter(|t| !exchange.members().contains(t)));
-        (candidates.len() > 1).then_some(Doubt::Ambiguous { reference, candidates })
+        let candidates = memory.exchanges.iter().enumerate().map(|(n, exchange)| {
+            // What it was asked by may be meant as well; and so may what was spoken of before and has not been left since.
+            let before = memory.exchanges.get(n + 1).map_or(&[][..], Exchange::topics);
+            let topics = exchange.topics().iter().enumerate();
+            let topics = topics.filter(|(n, t)| *n == 0 || before.contains(t)).map(|(_, t)| t);
+            let mut all: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
+            all.extend(topics.filter(fits).filter(|t| !exchange.members().contains(t)));
+            all
+        });
+        let candidates = candidates.into_iter().find(|all| !all.is_empty())?;
+        let at = sentence.words.get(words.start)?.start..sentence.words.get(words.end - 1)?.end;
+        (candidates.len() > 1).then_some((at, reference, candidates))
     }
 
     /// A name, number or description of a text that its rewriting has lost, and not because it is not meant. What a state
