@@ -430,3 +430,103 @@ fn a_room_that_is_called_as_its_kind_is_not_the_only_one() {
     let all: usize = bedrooms.iter().map(|area| books(area.id)).sum();
     assert_eq!(number("How many books are in a bedroom?"), Some(all));
 }
+
+/// "Where is the mug? What is next to it? Bring it": the mug, or what is next to it, nothing says; so none is brought.
+#[test]
+fn it_in_an_order_is_none_of_two_that_may_be_meant() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        let carried = |replica: &&Replica| world.has_trait(replica.id, "portable");
+        for thing in some(world, 3).filter(carried) {
+            let mut memory = Memory::default();
+            let name = &thing.name_en;
+            if ask(&engine, &format!("Where is {name}?"), &mut memory).is_none() {
+                continue;
+            }
+            let Some(beside) = ask(&engine, "What is next to it?", &mut memory) else { continue };
+            let beside: Vec<&Replica> = world
+                .replicas
+                .values()
+                .filter(|other| beside.symbols.contains(&other.name) && carried(other))
+                .collect();
+            let heard = engine.understand_in("Bring it", &mut memory);
+            if !beside.is_empty() {
+                assert!(heard.is_err(), "{name}: {heard:?}");
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 5, "{told}");
+}
+
+/// "Does every bedroom have a desk?", where one of them is called so: of all of them.
+#[test]
+fn every_one_of_a_kind_is_not_the_one_that_is_called_so() {
+    let Some(engine) = engine(FLAT) else { return };
+    let kinds = kinds(&engine);
+    let mut told = 0;
+    for (_, _, many) in kinds.keys().step_by(if long() { 1 } else { 3 }) {
+        let all = last(&engine, &[&format!("Do all bedrooms have {many}?")]);
+        let Some(all) = all.and_then(|answer| answer.is_so()) else { continue };
+        for line in
+            [format!("Does every bedroom have {many}?"), format!("Does each bedroom have {many}?")]
+        {
+            let Some(each) = last(&engine, &[&line]) else { continue };
+            assert_eq!(each.is_so(), Some(all), "{line}: {}", each.text);
+            told += 1;
+        }
+    }
+    assert!(told > 5, "{told}");
+}
+
+/// "Which lamps are on? And the others?": those that were told are none of the others.
+#[test]
+fn the_others_are_none_of_those_that_were_told() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        for (_, _, many) in kinds(&engine).keys() {
+            for which in ["on", "off", "open", "closed", "in the kitchen", "on the floor"] {
+                let mut memory = Memory::default();
+                let line = format!("Which {many} are {which}?");
+                let Some(those) = ask(&engine, &line, &mut memory) else { continue };
+                let Some(others) = ask(&engine, "And the others?", &mut memory) else { continue };
+                if those.symbols.len() < 2 || others.said == Said::Nothing {
+                    continue;
+                }
+                let again = others.symbols.iter().find(|name| those.symbols.contains(name));
+                assert_eq!(again, None, "{line}: {}", others.text);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 3, "{told}");
+}
+
+/// "How many mugs are there? In which rooms? Bring it": none of several, whatever was asked between.
+#[test]
+fn it_in_an_order_is_none_of_a_list_that_was_told_before() {
+    let Some(engine) = engine(FLAT) else { return };
+    let world = engine.world().unwrap();
+    let mut told = 0;
+    for ((_, _, many), things) in kinds(&engine) {
+        let carried = |t: &Thing| t.replica().is_some_and(|id| world.has_trait(id, "portable"));
+        if !things.iter().all(carried) {
+            continue;
+        }
+        for between in ["In which rooms?", "Which room is the biggest?", "Why is the sky blue?"] {
+            let mut memory = Memory::default();
+            let counted = ask(&engine, &format!("How many {many} are there?"), &mut memory);
+            if counted.is_none_or(|answer| answer.symbols.len() < 2) {
+                continue;
+            }
+            ask(&engine, between, &mut memory);
+            let heard = engine.understand_in("Bring it", &mut memory);
+            assert!(heard.is_err(), "{many}: {between} {heard:?}");
+            told += 1;
+        }
+    }
+    assert!(told > 5, "{told}");
+}

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use orthoframe::engine::{Change, Dialogue, Engine, Format, Method, Mode, Timestamp};
+use orthoframe_language::Language;
 use orthoframe_language::question::{Answer, Memory, Said};
 use orthoframe_map::{Edits, Entity};
 use orthoframe_units::Source;
@@ -323,4 +324,60 @@ fn an_area_is_moved_by_its_name_and_what_cannot_be_moved_is_called_what_it_is() 
     let no = edit(&mut engine, "[[edit]]\nmove = \"Office door\"\nby = [1, 0]\n").unwrap_err();
     let no = format!("{no:?}");
     assert!(no.contains("дверь «Office door»"), "{no}");
+}
+
+/// "Are all the lamps on?" is affirmed where it is affirmed of each: of what the map says nothing, nothing is known.
+#[test]
+fn what_is_said_of_all_is_so_of_each() {
+    let mut affirmed = 0;
+    for scene in ["virtualhome/TestScene3_graph.json", "procthor/house_5.json"] {
+        let path = format!("../shared/data/{scene}");
+        let Some(engine) = crate::talk::engine(&path) else { return };
+        let world = engine.world().unwrap();
+        let mut kinds: BTreeSet<String> = BTreeSet::new();
+        for replica in world.replicas.values() {
+            let kind = world.types.object.get(world.objects[&replica.object].object_type);
+            kinds.extend(kind.map(|kind| kind.name_en.to_lowercase()));
+        }
+        kinds.insert("lamp".to_owned());
+        for kind in kinds {
+            let kinds = orthoframe_language::english::plural(&kind);
+            for state in ["on", "off", "open", "closed"] {
+                let holds = |line: String| {
+                    let answer = engine.ask(&line, &mut Memory::default()).expect("there is a map");
+                    answer.ok().is_some_and(|answer| answer.said == Said::Yes)
+                };
+                if !holds(format!("Are all the {kinds} {state}?")) {
+                    continue;
+                }
+                let all = engine.ask(&format!("Which {kinds} are there?"), &mut Memory::default());
+                for name in all.expect("there is a map").expect("they were spoken of").symbols {
+                    let id = world.find(&name)[0];
+                    let Entity::Replica(id) = id else { continue };
+                    let name = &world.replicas[&id].name_en;
+                    assert!(holds(format!("Is {name} {state}?")), "{kinds} {state}: {name}");
+                }
+                affirmed += 1;
+            }
+        }
+    }
+    assert!(affirmed > 2, "{affirmed}");
+}
+
+/// What is put onto a thing that holds others is not said to be put into it, nor the reverse.
+#[test]
+fn a_step_says_where_a_thing_is_put_as_it_was_ordered() {
+    let path = "../shared/data/virtualhome/TestScene3_graph.json";
+    let Some(engine) = crate::talk::engine(path) else { return };
+    let world = engine.world().unwrap();
+    for (order, said) in [
+        ("Put the mug on the microwave", "put Mug 1 on Microwave 1"),
+        ("Put the mug in the microwave", "put Mug 1 in Microwave 1"),
+        ("Поставь кружку на стиральную машину", "put Mug 1 on Washing machine 1"),
+        ("Положи кружку в стиральную машину", "put Mug 1 in Washing machine 1"),
+    ] {
+        let done = engine.perform(order, &mut |_| {}).unwrap_or_else(|e| panic!("{order}: {e}"));
+        let told = done.reports.last().expect("it was driven");
+        assert_eq!(told.directive_in_words(world, Language::English), said, "{order}");
+    }
 }

@@ -102,7 +102,7 @@ pub(crate) fn directive_in_words(
         (DoorStatus::Locked, _) => ("запереть", "lock"),
     };
     let told: Vec<String> =
-        directive.primitives().iter().map(|primitive| words.primitive(primitive, opened)).collect();
+        directive.primitives().iter().map(|it| words.primitive(it, directive, opened)).collect();
     match told.is_empty() {
         true => words.action(&directive.action, &directive.args),
         false => told.join(language.pick(" и ", " and ")),
@@ -370,6 +370,7 @@ impl Words<'_> {
     fn primitive(
         &self,
         primitive: &Primitive,
+        directive: &Directive,
         opened: impl Fn(DoorStatus) -> (&'static str, &'static str),
     ) -> String {
         let pick = |ru, en| self.language.pick(ru, en);
@@ -417,7 +418,7 @@ impl Words<'_> {
                 "{} {} {}",
                 pick("положить", "put"),
                 accusative(thing),
-                if self.is_container(onto) {
+                if directive.brings_about(predicate::THING_IN) {
                     self.at(Preposition::V, "in", onto)
                 } else {
                     format!("{} {}", pick("на", "on"), accusative(onto))
@@ -530,16 +531,6 @@ impl Words<'_> {
         let map = area.and_then(|id| self.world.placement(id)).map(|(map, _)| map);
         let map = map.map(|map| named(self.world, Entity::Map(map)));
         map.map_or(room.to_owned(), |map| map.whither_storey(self.language))
-    }
-
-    /// Made to have things in it, and not on it.
-    fn is_container(&self, name: &str) -> bool {
-        self.world.find(name).iter().any(|entity| match entity {
-            Entity::Replica(id) => {
-                self.world.has_trait(*id, "container") && !self.world.has_trait(*id, "support")
-            }
-            _ => false,
-        })
     }
 
     fn person(&self, person: &str, case: Case) -> String {

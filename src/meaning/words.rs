@@ -264,6 +264,14 @@ impl Sentence<'_> {
             if text.chars().all(|c| c.is_ascii_digit()) {
                 continue;
             }
+            // «На какой столешнице 3 молока?»: what the number counts follows it.
+            let ends_in_number = |(_, last): (&str, &str)| last.chars().all(char::is_numeric);
+            if text.rsplit_once(' ').is_some_and(ends_in_number)
+                && let Some(next) = self.tokens.get(to)
+                && !self.descriptions(&self.text[next.at.clone()]).is_empty()
+            {
+                continue;
+            }
             let found = self.descriptions(text);
             if found.is_empty() {
                 continue;

@@ -4,6 +4,7 @@
 //! is at a door is a drive to that door. So a rule file may add, rename and split actions freely, as long as
 //! it speaks of the world in the predicates of [`crate::semantics::predicate`].
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::map::DoorStatus;
@@ -147,6 +148,21 @@ impl Directive {
             ),
             needs: schema.preconditions.iter().map(ground).collect(),
         }
+    }
+
+    /// The same where some things go into others, not onto them: the rules' "on" may mean both.
+    #[must_use]
+    pub fn putting(mut self, into: &BTreeSet<(String, String)>) -> Self {
+        let on = name_key(predicate::THING_ON);
+        for effect in &mut self.adds {
+            if effect.predicate == on
+                && let [thing, holder] = &effect.args[..]
+                && into.contains(&(thing.clone(), holder.clone()))
+            {
+                effect.predicate = name_key(predicate::THING_IN);
+            }
+        }
+        self
     }
 
     /// What the vehicle has to do, in this order. Empty for an action that only changes what is known.

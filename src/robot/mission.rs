@@ -182,8 +182,10 @@ impl<'r> Mission<'r> {
         let learned_before = learned.is_some_and(|learned| learned.serves(&solved.task));
         let steps = match solved.outcome.plan() {
             Some(plan) => {
-                let directive =
-                    |&o| Directive::of(self.domain, &solved.task, solved.task.operator(o));
+                let directive = |&o| {
+                    let operator = solved.task.operator(o);
+                    Directive::of(self.domain, &solved.task, operator).putting(&self.belief.into)
+                };
                 plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
             }
             None => Vec::new(),

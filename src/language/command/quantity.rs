@@ -78,7 +78,8 @@ pub(super) fn except_one(said: &Said) -> Option<String> {
         "за исключением",
         "не считая",
     ];
-    const ONE: [&str; 7] = ["the one", "the ones", "that", "those", "той", "того", "тех"];
+    const ONE: [&str; 11] =
+        ["the one", "the ones", "that", "those", "той", "того", "тех", "ту", "тот", "то", "те"];
     let (verb, taken, _) = said.verb_from(0)?;
     let (except, end) = (verb + taken + 1..said.keys.len()).find_map(|n| {
         let one = n + said.phrase(n, &EXCEPT)?;

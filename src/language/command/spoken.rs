@@ -10,7 +10,7 @@ use super::quantity;
 use super::said::{Said, is_adjective};
 use super::states::STATES;
 use super::time;
-use super::vocabulary::{Meaning, Verb};
+use super::vocabulary::{Meaning, Role, Verb};
 use crate::words::Language;
 
 /// What a rewriting may leave out.
@@ -37,11 +37,11 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
         (going::faced, Small),
         (going::by_lift, NotMeant),
         (going::corrected, NotMeant),
-        (quantity::except_one, Small),
         (without_forbidden, NotMeant),
         (contrasted, NotMeant),
         (instead, NotMeant),
         (excluded, NotMeant),
+        (quantity::except_one, Small),
         (ellipsis::verb_first, Small),
         (ellipsis::verb_again, Small),
         (ellipsis::object_again, Small),
@@ -173,23 +173,39 @@ fn instead(said: &Said) -> Option<String> {
 
 /// "the cup, not the red one", «чашку, только не красную»: all but that.
 fn excluded(said: &Said) -> Option<String> {
-    const BUT_NOT: [&str; 5] = ["not", "but not", "только не", "но не", "не"];
-    let at =
-        (2..said.keys.len()).find(|&n| said.parted(n) && said.phrase(n, &BUT_NOT).is_some())?;
-    let taken = said.phrase(at, &BUT_NOT)?;
+    const BUT_NOT: [&str; 3] = ["but not", "только не", "но не"];
+    const NOT: [&str; 2] = ["not", "не"];
+    let not = |n: usize| said.phrase(n, &NOT).filter(|_| said.parted(n));
+    let (at, taken) = (2..said.keys.len())
+        .find_map(|n| Some((n, said.phrase(n, &BUT_NOT).or_else(|| not(n))?)))?;
     let end = said.clause_end(at + taken);
     let told = at + taken..end;
     // «не заезжая в кухню», "not entering the kitchen" forbids; it leaves nothing out.
     if said.keys.get(told.start).is_some_and(|key| is_gerund(key)) {
         return None;
     }
+    let except = Language::of(&said.keys[at]).pick("кроме", "except");
+    let ordered = said.verb_from(0);
+    let goes = ordered.is_some_and(|(.., verb)| verb == Verb::GoTo);
+    let link = said.meaning(at + taken).filter(|(_, meaning)| matches!(meaning, Meaning::Link(_)));
+    // «книгу, только не из спальни»: one that is elsewhere, where no place was said.
+    if let (Some((_, link)), Some((verb, heard, _))) = (link, ordered.filter(|_| !goes))
+        && !link.says_whither()
+        && let (noun, None) = ellipsis::object(said, &(verb + heard..at))
+        && !noun.is_empty()
+    {
+        let noun = said.of(&noun);
+        let mut text = said.text.clone();
+        let out = format!(" {except} {noun} {}", said.of(&told));
+        text.replace_range(said.words[at - 1].end..said.words[end - 1].end, &out);
+        return Some(text);
+    }
     // "to me, not to the kitchen", "go to the desk, not the workbench": the other place is merely not meant.
-    let goes = said.verb_from(0).is_some_and(|(.., verb)| verb == Verb::GoTo);
-    if goes || matches!(said.meaning(at + taken), Some((_, Meaning::Link(_)))) {
+    if goes || link.is_some() {
         return Some(said.without(&(at..end)));
     }
     // "the bowl from the table, not the one from the bed": told by its own place already.
-    let link = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(_))));
+    let link = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(link))) if link.role != Role::Whither);
     let other_place =
         said.phrase(at + taken, &["the one", "the ones", "ту что", "тот что", "то что"]);
     if other_place.is_some() && (0..at).any(link) {
@@ -200,10 +216,6 @@ fn excluded(said: &Said) -> Option<String> {
     {
         return None;
     }
-    let except = match Language::of(&said.keys[at]) {
-        Language::Russian => "кроме",
-        Language::English => "except",
-    };
     let from = said.words[at - 1].end;
     let mut text = said.text.clone();
     text.replace_range(from..said.words[end - 1].end, &format!(" {except} {}", said.of(&told)));

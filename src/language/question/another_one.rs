@@ -136,6 +136,12 @@ impl Asker<'_> {
             false if many.is_some() => self.rest_of_kind(memory).or_else(others)?,
             false => others()?,
         };
+        // "Which lamps are on? – These three. – And the others?": those that were told are no others.
+        let found = self.knowledge(memory.language, memory).find(&noun, true).unwrap_or_default();
+        let told = memory.last.len() > 1 && found.len() == memory.last.len();
+        if told && found.iter().all(|t| memory.last.contains(t)) {
+            return None;
+        }
         let so_many = |many: u64| {
             let found = self.knowledge(memory.language, memory).find(&noun, true);
             let others = |found: &Vec<Thing>| found.iter().all(|t| !memory.last.contains(t));

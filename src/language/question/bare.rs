@@ -43,8 +43,17 @@ pub(super) fn which_alone(key: &str, last: &Query) -> Option<Query> {
     Some(Query::Find(Noun { plural: true, indefinite: true, count: None, ..sought.clone() }))
 }
 
-/// "There's a bag somewhere. Which room?": where the one thing is that was spoken of.
+/// "There's a bag somewhere. Which room?", «Сколько кружек? – Две. – В каких комнатах?»: where the things are that were
+/// spoken of.
 pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
+    const ROOMS: [&str; 6] = [
+        "which rooms",
+        "in which rooms",
+        "in what rooms",
+        "в каких комнатах",
+        "а в каких комнатах",
+        "в каких",
+    ];
     const ROOM: [&str; 8] = [
         "which room",
         "what room",
@@ -56,6 +65,13 @@ pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
         "в какой",
     ];
     let said = word_keys(text).join(" ");
+    let told = &memory.last;
+    if ROOMS.contains(&said.as_str())
+        && !told.is_empty()
+        && told.iter().all(|t| t.replica().is_some())
+    {
+        return Some(Query::RoomOf(Noun { plural: true, ..Noun::of(told.clone()) }));
+    }
     let thing = memory.exchanges.first()?.topic().filter(|t| t.replica().is_some())?;
     ROOM.contains(&said.as_str()).then(|| Query::RoomOf(Noun::of(vec![thing])))
 }

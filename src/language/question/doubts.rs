@@ -139,6 +139,12 @@ impl Knowledge<'_> {
             Doubt::NoneSuch { noun } if self.has_no_order(noun) => self
                 .pick("сравнить их карта не даёт", "the map does not let them be compared")
                 .to_owned(),
+            Doubt::NoneSuch { noun } if !noun.except.is_empty() => self
+                .pick(
+                    "других, кроме исключённых, на карте нет",
+                    "the map has none but what is left out",
+                )
+                .to_owned(),
             Doubt::NoneSuch { noun } => {
                 let place = self.restrictions(noun);
                 let none = self.none_of(noun);

@@ -9,7 +9,7 @@ use super::grammar::points;
 use super::knowledge::Knowledge;
 use super::mark::Mark;
 use super::memory::Exchange;
-use super::query::{Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
+use super::query::{Best, Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Doubt, vocabulary};
 use crate::map::Entity;
 use crate::words::word_keys;
@@ -326,6 +326,13 @@ impl Knowledge<'_> {
                     ..noun.clone()
                 };
                 let words = word_keys(&noun.text);
+                // The most of nothing that is counted: "Which are more?"
+                let most = |best: &Best| {
+                    best.anchor.is_none() && matches!(best.extreme, Extreme::Most | Extreme::Fewest)
+                };
+                if noun.best.as_ref().is_some_and(most) {
+                    return true;
+                }
                 let ones = words.last().is_some_and(|word| matches!(&**word, "one" | "ones"));
                 let said = vocabulary::longest(&words);
                 let pronoun = matches!(said, Some((n, Mark::Pronoun(_))) if n == words.len());

@@ -272,7 +272,14 @@ impl Exchange {
     fn of(answer: &Answer) -> Self {
         let others = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied();
         let found = answer.things.iter().copied();
+        let mut plural = false;
+        answer.query.clone().first_noun(|noun| plural = noun.plural);
         match &answer.query {
+            // "Which rooms are the mugs in?": an order is of none of them more than of the others.
+            Query::Anchor { .. } | Query::RoomOf(_) if plural && others().count() > 1 => {
+                let topics = others().chain(found).collect();
+                Self { topics, listed: others().collect(), ..Self::default() }
+            }
             // "What is the lamp on?" goes on being about the lamp.
             Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {
                 Self { topics: others().chain(found).collect(), ..Self::default() }
@@ -283,6 +290,10 @@ impl Exchange {
                 aside: others().collect::<BTreeSet<Thing>>().into_iter().collect(),
                 ..Self::default()
             },
+            // "What else is there?": the place was not called by a name.
+            query if answer.things.len() > 1 && query.is_of_there() => {
+                Self { listed: answer.things.clone(), aside: others().collect(), ..Self::default() }
+            }
             _ if answer.things.len() > 1 => Self {
                 topics: others().collect(),
                 listed: answer.things.clone(),

@@ -37,7 +37,9 @@ impl Asker<'_> {
                 _ => return None,
             }
         }
-        let extreme = extreme.filter(|_| which)?;
+        // Of how many there are nothing is told by what was told.
+        let many = |extreme: &Extreme| matches!(extreme, Extreme::Most | Extreme::Fewest);
+        let extreme = extreme.filter(|extreme| which && !many(extreme))?;
         let knowledge = self.knowledge(sentence.language, memory);
         let gender = sentence.keys.iter().find_map(|key| match key.as_str() {
             "какой" | "который" => Some(Gender::Masculine),
@@ -186,10 +188,15 @@ impl Asker<'_> {
     pub(super) fn more_of_counted(&self, text: &str, memory: &Memory) -> Option<Query> {
         let [later, earlier] = &memory.counted[..] else { return None };
         let plain = self.plain(text);
-        let (mut extreme, mut asks) = (None, false);
-        for item in Sentence::new(&plain, &self.mind.lexicon).items() {
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        // "Which are" is one small word, as in "the plates which are on the table".
+        let mut asks = sentence.keys.first().is_some_and(|key| key == "which");
+        let mut extreme = None;
+        for item in sentence.items() {
             match item {
-                Item::Mark(Mark::More(of)) if extreme.is_none() => extreme = Some(of),
+                Item::Mark(Mark::More(of) | Mark::Best(of)) if extreme.is_none() => {
+                    extreme = Some(of);
+                }
                 Item::Mark(Mark::Where | Mark::Which | Mark::What) => asks = true,
                 Item::Mark(Mark::Be | Mark::The | Mark::And | Mark::Have | Mark::Exists) => {}
                 Item::Link(Rel::In | Rel::On) => {}

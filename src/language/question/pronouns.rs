@@ -21,7 +21,7 @@ impl Knowledge<'_> {
         match pronoun {
             // "Is there a towel in the bathroom? – No such thing. – How many paintings are there?": in the bathroom.
             // Nor is anywhere "there" while it is asked back which of several was meant.
-            Pronoun::There if self.memory.is_lost || self.memory.pending.is_some() => {
+            Pronoun::There if self.memory.is_lost || self.memory.awaits_reply() => {
                 self.memory.told_place.into_iter().collect()
             }
             _ if self.memory.is_lost => Vec::new(),

@@ -339,6 +339,14 @@ impl Query {
         }
     }
 
+    /// Whether what is sought is sought "there" alone.
+    pub(super) fn is_of_there(&self) -> bool {
+        let there = |place: &Restriction| place.rel == Rel::There;
+        self.sought().is_some_and(|noun| {
+            !noun.restrictions.is_empty() && noun.restrictions.iter().all(there)
+        })
+    }
+
     /// Does something to what the query is about first.
     pub(super) fn first_noun(&mut self, act: impl FnOnce(&mut Noun)) {
         let mut act = Some(act);

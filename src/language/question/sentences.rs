@@ -365,6 +365,10 @@ impl Asker<'_> {
             }
         }
         if let [place] = placed[..] {
+            // "Is any of that in the fridge? What is in it?"
+            if named.is_empty() && several.is_empty() && place.replica().is_some() {
+                memory.mention(&[place]);
+            }
             memory.told_place = Some(place);
         }
     }

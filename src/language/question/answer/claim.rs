@@ -177,11 +177,13 @@ impl Knowledge<'_> {
             return Ok(self.say_empty(thing, negated));
         }
         // Of what the map says nothing, nothing is claimed.
+        let told_of = found.len();
         if let [Claim::Value(filter)] = claims
             && found.iter().any(|t| self.own_value(*t, filter.value).is_some())
         {
             found.retain(|t| self.own_value(*t, filter.value).is_some());
         }
+        let untold = told_of - found.len();
         if let (&[thing], [Claim::Value(filter)]) = (&found[..], claims)
             && self.own_value(thing, filter.value).is_none()
         {
@@ -227,11 +229,24 @@ impl Knowledge<'_> {
                 claims.iter().map(|c| self.claim_words(thing, c)).collect::<Result<_, _>>()?;
             format!("{} {}", self.name(thing), enumerate(&parts, self.language))
         };
-        let said = if yes { Said::Yes } else { Said::No };
+        // That all are so is known where it is known of all.
+        let (text, said) = match (all && untold > 0, yes) {
+            (true, _) => (self.as_far_as_told(&format!("{head}{text}"), untold), Said::Unknown),
+            (false, true) => (format!("{head}{text}"), Said::Yes),
+            (false, false) => (format!("{head}{text}"), Said::No),
+        };
         topic.truncate(4);
         facts.order_by_key(|f| f.holds == all);
         facts.reverse();
-        Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(found) }.about(&topic))
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&topic))
+    }
+
+    /// What is so of all of which the map tells, beside so many of which it does not.
+    fn as_far_as_told(&self, text: &str, untold: usize) -> String {
+        match self.is_russian() {
+            true => format!("насколько говорит карта, {text}; о других ({untold}) она не говорит"),
+            false => format!("as far as the map tells, {text}; of {untold} more it does not tell"),
+        }
     }
 
     /// The subject of a claim: one thing, or all of several.

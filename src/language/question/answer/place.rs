@@ -430,7 +430,9 @@ impl Knowledge<'_> {
         const EACH: usize = 6;
         let all = match self.definite(of) {
             Err(Doubt::Ambiguous { candidates, .. })
-                if matches!(rel, Rel::On | Rel::In) && candidates.len() <= EACH =>
+                if matches!(rel, Rel::On | Rel::In)
+                    && candidates.len() <= EACH
+                    && !of.counts_several() =>
             {
                 candidates
             }

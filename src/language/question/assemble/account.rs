@@ -645,6 +645,10 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
                         | Q::Holds { .. }
                 )
         }
+        // "Where does the robot sleep?" asks for no place where it stands.
+        Mark::Sit | Mark::LieDown | Mark::PutDown => {
+            !matches!(query, Q::WhereAreYou(_) | Q::LastSeen(_) | Q::Before(_))
+        }
         Mark::Kinds => matches!(query, Q::Kinds { .. }),
         Mark::Hold => matches!(query, Q::WhatDoYouHold | Q::Holds { .. }),
         Mark::Differ | Mark::Alike => false,

@@ -97,16 +97,30 @@ fn each_of(
     if shared || frame.marks.iter().any(|(mark, _)| together(mark)) {
         return None;
     }
-    let at = items.windows(3).position(|window| {
+    let joined = items.windows(3).position(|window| {
         matches!(window, [Item::Noun(a), Item::Mark(Mark::And), Item::Noun(b)]
             if a.person.is_none() && b.person.is_none())
-    })?;
-    // Lists: «стол, стул и диван».
-    let mut nouns = vec![at, at + 2];
-    while nouns[0] > 0
-        && matches!((&items[nouns[0] - 1], &items[nouns[0]]), (Item::Noun(a), Item::Noun(b))
-            if sentence.comma_between(a.words.end, b.words.start))
-    {
+    });
+    // Lists: «стол, стул и диван», «где: стол, стул?»
+    let parted = |n: usize| match (&items[n], items.get(n + 1)) {
+        (Item::Noun(a), Some(Item::Noun(b))) => {
+            a.person.is_none() && sentence.comma_between(a.words.end, b.words.start)
+        }
+        _ => false,
+    };
+    let after_colon = |n: &usize| match &items[*n] {
+        Item::Noun(phrase) => sentence.colon_before(phrase.words.start),
+        _ => false,
+    };
+    let mut nouns = match joined {
+        Some(at) => vec![at, at + 2],
+        None => {
+            let first = (0..items.len()).find(after_colon).filter(|n| parted(*n))?;
+            let others = (first..items.len()).take_while(|n| parted(*n)).map(|n| n + 1);
+            std::iter::once(first).chain(others).collect()
+        }
+    };
+    while nouns[0] > 0 && parted(nouns[0] - 1) {
         nouns.insert(0, nouns[0] - 1);
     }
     // «Стулья 3» is one chair by its name.
@@ -116,8 +130,8 @@ fn each_of(
     }
     let mut queries = Vec::new();
     for own in &nouns {
-        let kept =
-            items.iter().enumerate().filter(|(n, _)| n == own || !(*n >= nouns[0] && *n <= at + 2));
+        let list = nouns[0]..=nouns[nouns.len() - 1];
+        let kept = items.iter().enumerate().filter(|(n, _)| n == own || !list.contains(n));
         let kept: Vec<Item> = kept.map(|(_, item)| item.clone()).collect();
         let own = Frame::of(sentence, lexicon, &kept, referent).ok()?;
         let mut query = own.read()?;

@@ -220,7 +220,9 @@ impl Frame<'_, '_> {
             | Query::WhatDoYouHold => {
                 let about_itself = matches!(query, Query::WhereAreYou(_) | Query::WhatDoYouHold);
                 let denied = self.negated && about_itself;
-                return (denied || !self.names_nothing()).then(|| self.sentence.text.to_owned());
+                let done = about_itself && self.activity_said().is_some();
+                return (denied || done || !self.names_nothing())
+                    .then(|| self.sentence.text.to_owned());
             }
             Query::Several(_)
             | Query::Noted { .. }
@@ -229,6 +231,10 @@ impl Frame<'_, '_> {
             | Query::People { .. }
             | Query::Courtesy(_) => return None,
             _ => {}
+        }
+        // "When did you last clean the bathroom?": what is done and what is so look alike.
+        if matches!(query, Query::LastSeen(_) | Query::Before(_)) && !self.values.is_empty() {
+            return Some(self.sentence.text.to_owned());
         }
         // «Какого цвета не бывает стульев?»
         if self.negated && matches!(query, Query::Property { .. } | Query::Size { .. }) {

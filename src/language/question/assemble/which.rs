@@ -6,7 +6,9 @@ use super::Frame;
 use super::Subject;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
-use crate::question::query::{Best, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing};
+use crate::question::query::{
+    Best, Extreme, Filter, Head, Noun, Quantity, Query, Rel, Restriction, Thing,
+};
 
 impl Frame<'_, '_> {
     pub(super) fn counted(&self) -> Option<Query> {
@@ -240,6 +242,8 @@ impl Frame<'_, '_> {
         let other = self.nouns.iter().find(|s| asked.is_none_or(|a| a.at != s.at));
         if let (Some(rel), Some(of)) = (link, other) {
             let of_noun = self.with_rest(of.noun.clone(), &[]);
+            let counted = of.noun.best.is_none()
+                && (of.noun.count.is_some() || of.noun.quantity != Quantity::Exactly);
             if let Some(asked) = asked {
                 let rooms = self.is_rooms(&asked.noun);
                 if rooms && matches!(rel, Rel::In | Rel::On) {
@@ -250,16 +254,42 @@ impl Frame<'_, '_> {
                         || self.has(Mark::Exists)
                         || self.has(Mark::Have)
                         || of.noun.plural
-                        || of.noun.indefinite;
+                        || of.noun.indefinite
+                        || counted;
                     let spoken = of.noun.head.things.is_some();
                     if general && !spoken && !self.is_storeys(&asked.noun) {
                         return Some(self.rooms_with(&asked.noun));
                     }
                     return Some(Query::RoomOf(of_noun));
                 }
+                // «За какой дверью ванная?»: which leads there.
+                if rel == Rel::Behind && self.is_doors(&asked.noun) && self.is_area(&of_noun) {
+                    let mut doors = Noun { indefinite: true, ..asked.noun.clone() };
+                    let (anchors, negated) = (vec![of_noun], self.negated);
+                    doors.restrictions.push(Restriction { rel: Rel::To, anchors, negated });
+                    return Some(Query::Find(doors));
+                }
+                // «На каком столе пять тарелок?»: which of them bears so many.
+                let part = |k: &_| matches!(self.lexicon.kind(*k).extension, Extension::Part(_));
+                let parts = asked.noun.head.kinds.iter().any(part);
+                if counted && !parts && matches!(rel, Rel::In | Rel::On) {
+                    let mut noun = Noun { indefinite: true, ..asked.noun.clone() };
+                    let anchors = vec![Noun { indefinite: true, ..of_noun }];
+                    let negated = self.negated;
+                    noun.restrictions.push(Restriction { rel: Rel::Bears, anchors, negated });
+                    return Some(Query::Find(noun));
+                }
                 return Some(Query::Anchor { rel, of: of_noun, what: Some(asked.noun.clone()) });
             }
             return Some(Query::Anchor { rel, of: of_noun, what: None });
+        }
+        // «В каких комнатах?»: of what, no word says.
+        let small = |(mark, _): &(Mark, usize)| {
+            matches!(mark, Mark::Which | Mark::What | Mark::Be | Mark::And | Mark::The | Mark::A)
+        };
+        let says_no_more = self.spots.is_empty() && self.values.is_empty() && !self.you;
+        if before.is_some() && other.is_none() && says_no_more && self.marks.iter().all(small) {
+            return None;
         }
         // "What are you standing next to?"
         if let (Some(rel), None, true, true) = (link, other, self.you, self.spots.is_empty()) {

@@ -200,6 +200,13 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// Whether a colon stands before a word.
+    pub(super) fn colon_before(&self, at: usize) -> bool {
+        let before = at.checked_sub(1).and_then(|n| self.words.get(n));
+        let between = before.zip(self.words.get(at)).map(|(a, b)| a.end..b.start);
+        between.and_then(|gap| self.text.get(gap)).is_some_and(|gap| gap.contains(':'))
+    }
+
     /// The words that tell one thing from another: names, numbers, values other than states, each in the place where it
     /// was said. No reading may do without them.
     pub(super) fn content(&self, lexicon: &Lexicon) -> Vec<Range<usize>> {
@@ -446,6 +453,13 @@ impl<'t> Sentence<'t> {
                 Modifier::The => {}
                 Modifier::A => noun.indefinite = true,
                 Modifier::All => noun.all = true,
+                // "Every bedroom": all of the kind, though one room is called so.
+                Modifier::Each => {
+                    noun.all = true;
+                    if !noun.head.kinds.is_empty() {
+                        noun.head.named.clear();
+                    }
+                }
                 Modifier::Other => noun.other = true,
                 Modifier::Same => noun.same = true,
                 // Of two numbers, or two orders, one would be forgotten.

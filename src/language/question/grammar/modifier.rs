@@ -12,6 +12,8 @@ pub(super) enum Modifier {
     The,
     A,
     All,
+    /// «каждый», "every": of a kind, never the whole of one thing, as «вся» is.
+    Each,
     Other,
     Same,
     Number(u64),
@@ -37,7 +39,10 @@ impl Sentence<'_> {
             {
                 Modifier::A
             }
-            Tok::Mark(Mark::All) => Modifier::All,
+            Tok::Mark(Mark::All) => match self.keys.get(first.from as usize) {
+                Some(key) if is_each(key) => Modifier::Each,
+                _ => Modifier::All,
+            },
             Tok::Mark(Mark::Other) => Modifier::Other,
             Tok::Mark(Mark::Same) => Modifier::Same,
             Tok::Mark(Mark::Best(extreme)) => match self.nearest_to(extreme, rest) {
@@ -66,6 +71,15 @@ impl Sentence<'_> {
             Tok::Number(count) => Modifier::Number(count),
             // «Закрыта дверь?» says it of the door; it does not tell which.
             Tok::Value(_) if self.is_predicate(first) => return fail(input),
+            // "clean the bathroom": no value stands before an article.
+            Tok::Value(_)
+                if matches!(
+                    rest.split_first(),
+                    Some((Token { kind: Tok::Mark(Mark::The | Mark::A), .. }, _))
+                ) =>
+            {
+                return fail(input);
+            }
             Tok::Value(value) => Modifier::Value(value, false),
             // «красные или белые чашки», "black and white chairs": either will do.
             Tok::Mark(Mark::Or | Mark::And) => {
@@ -119,4 +133,9 @@ impl Sentence<'_> {
         };
         Some((extreme, rest))
     }
+}
+
+/// «каждый», "every", where «весь» may be the whole of one.
+fn is_each(key: &str) -> bool {
+    matches!(key, "every" | "each") || key.starts_with("кажд") || key.starts_with("люб")
 }

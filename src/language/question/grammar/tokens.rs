@@ -378,7 +378,14 @@ impl<'t> Sentence<'t> {
                 && ["stand", "lie"].contains(&self.keys[last].as_str())
                 && (after(1) || after(2))
                 && self.keys[..at].iter().any(asks);
-            if !(small || verb) {
+            // «На каком ковре 2 скамьи?»: the number counts what follows it, and of Rug 2 nobody asks which it is.
+            let counts = taken > 1
+                && self.asks_property()
+                && gap(last) == " "
+                && self.keys[last].chars().all(char::is_numeric)
+                && last + 1 < end
+                && lexicon.nouns.length_at(self.text, &self.words[..end], last + 1) > 0;
+            if !(small || verb || counts) {
                 return taken;
             }
             end = last;

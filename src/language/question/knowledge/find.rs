@@ -381,6 +381,13 @@ impl Knowledge<'_> {
         if found.is_empty() {
             return Err(self.none_such(noun));
         }
+        // "Where are the five cups?", of which there are three, or twenty.
+        if let (Some(n), None) = (noun.count.filter(|n| *n > 1), &noun.best)
+            && !noun.quantity.admits(found.len() as u64, n)
+        {
+            let many = u64::try_from(found.len()).is_ok_and(|found| found > n);
+            return Err(if many { self.ambiguous(noun, &found) } else { Doubt::TooFew { found } });
+        }
         // Of equally big windows all are the biggest.
         let equal = noun.best.is_some();
         let several = noun.plural || noun.all || noun.count.is_some() || noun.indefinite || equal;

@@ -183,7 +183,7 @@ impl Resolver<'_, '_> {
     }
 
     /// Places from which something is taken, as those where it was looked for.
-    fn resting(&self, within: &[Restriction]) -> Vec<Restriction> {
+    pub(super) fn resting(&self, within: &[Restriction]) -> Vec<Restriction> {
         let rests = |r: &Restriction| {
             let mut anchors = r.anchors.iter().flat_map(|a| self.knowledge.base(&a.head));
             let are_rooms = anchors.all(|t| t.area().is_some());
@@ -242,5 +242,6 @@ pub(super) fn is_described(noun: &Noun, within: &[Restriction]) -> bool {
         || !noun.restrictions.is_empty()
         || noun.best.is_some()
         || noun.rank.is_some()
+        || !noun.except.is_empty()
         || !within.is_empty()
 }

@@ -22,7 +22,7 @@ use place::{Spot, case_of};
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
-use super::memory::{Ordered, Waiting};
+use super::memory::{Exchange, Ordered, Waiting};
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::uses;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
@@ -91,7 +91,7 @@ impl Asker<'_> {
             ["те", "тех"].contains(&pair[0].as_str())
                 && (pair[1] == "что" || pair[1].starts_with("котор"))
         };
-        if let Some(pair) = word_keys(text).windows(2).find(|pair| several(pair)) {
+        if let Some(pair) = word_keys(&gathered).windows(2).find(|pair| several(pair)) {
             return Err(misread(Doubt::not_understood(&pair.join(" "))));
         }
         let said = word_keys(&gathered);
@@ -121,9 +121,12 @@ impl Asker<'_> {
             Ok(mut edits) => {
                 edits.order_by_key(|edit| edit.at.start);
                 if !edits.iter().any(|edit| edit.object)
-                    && let Some(doubt) = self.one_of_listed(&text, &sentence, memory)
+                    && let Some((at, reference, candidates)) =
+                        self.one_of_listed(&text, &sentence, memory)
                 {
-                    return Err(misread(doubt));
+                    let told = candidates.clone();
+                    memory.waiting = Some(Waiting { text, at, candidates: told, language });
+                    return Err(misread(Doubt::Ambiguous { reference, candidates }));
                 }
                 let object = edits.iter().find(|edit| edit.object);
                 let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
@@ -164,23 +167,37 @@ impl Asker<'_> {
         }
     }
 
-    /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её»: which of several that were told at once, nothing says.
-    fn one_of_listed(&self, text: &str, sentence: &Sentence<'_>, memory: &Memory) -> Option<Doubt> {
-        let exchange = memory.exchanges.first()?;
-        let (reference, pronoun) = sentence.items().into_iter().find_map(|item| match item {
-            Item::Noun(phrase) => Some((phrase.noun.text.clone(), phrase.pronoun?)),
-            _ => None,
-        })?;
+    /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её», "What is next to the mug? – A plate. – Bring it": which of
+    /// several that were told at once, or of what was asked by and what was told, nothing says.
+    fn one_of_listed(
+        &self,
+        text: &str,
+        sentence: &Sentence<'_>,
+        memory: &Memory,
+    ) -> Option<(Range<usize>, String, Vec<Thing>)> {
+        let (words, reference, pronoun) =
+            sentence.items().into_iter().find_map(|item| match item {
+                Item::Noun(phrase) => Some((phrase.words, phrase.noun.text, phrase.pronoun?)),
+                _ => None,
+            })?;
         if matches!(pronoun, Pronoun::They | Pronoun::There) {
             return None;
         }
         let knowledge = self.knowledge(sentence.language, memory);
         let (_, sort) = *command::clauses(text).first()?;
         let fits = |t: &&Thing| knowledge.can(sort, **t) && knowledge.agrees(pronoun, **t);
-        let topic = exchange.topic();
-        let candidates: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
-        (topic.as_ref().filter(fits).is_none() && candidates.len() > 1)
-            .then_some(Doubt::Ambiguous { reference, candidates })
+        let candidates = memory.exchanges.iter().enumerate().map(|(n, exchange)| {
+            // What it was asked by may be meant as well; and so may what was spoken of before and has not been left since.
+            let before = memory.exchanges.get(n + 1).map_or(&[][..], Exchange::topics);
+            let topics = exchange.topics().iter().enumerate();
+            let topics = topics.filter(|(n, t)| *n == 0 || before.contains(t)).map(|(_, t)| t);
+            let mut all: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
+            all.extend(topics.filter(fits).filter(|t| !exchange.members().contains(t)));
+            all
+        });
+        let candidates = candidates.into_iter().find(|all| !all.is_empty())?;
+        let at = sentence.words.get(words.start)?.start..sentence.words.get(words.end - 1)?.end;
+        (candidates.len() > 1).then_some((at, reference, candidates))
     }
 
     /// A name, number or description of a text that its rewriting has lost, and not because it is not meant. What a state

@@ -278,6 +278,12 @@ impl Resolver<'_, '_> {
             let left_out = found(&out, &[])?;
             let all = found(&Noun { except: Vec::new(), ..noun.clone() }, within)?;
             let several = noun.plural || noun.all || noun.count.is_some();
+            // "The plate, not the bowl": of another kind, and so not meant anyway.
+            let base = self.knowledge.base(&noun.head);
+            let other_kind = !except.head.anything && !left_out.is_empty();
+            if other_kind && left_out.iter().all(|thing| !base.contains(thing)) {
+                continue;
+            }
             if !several && !all.iter().any(|thing| left_out.contains(thing)) {
                 return Err((Doubt::not_understood(&except.text), at()));
             }

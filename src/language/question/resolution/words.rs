@@ -61,7 +61,8 @@ impl Resolver<'_, '_> {
             anchors: vec![with(&s.phrase.noun, &s.within)],
             negated: false,
         });
-        with(&except.noun, &within.collect::<Vec<_>>())
+        let within: Vec<Restriction> = within.collect();
+        with(&except.noun, &self.resting(&within))
     }
 
     /// "the book on the dresser and the cup from the kitchen": what is named behind a place and its joint is an object
