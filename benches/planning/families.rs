@@ -407,6 +407,7 @@ pub(crate) fn all() -> Vec<Measured> {
         (blocks(14, 4), 1.24),
         (blocks(14, 2), 1.24),
         (blocks(16, 1), f64::INFINITY),
+        (blocks(16, 2), f64::INFINITY),
         (depot(3, 2, 4, 1), 0.007),
         (depot(3, 2, 6, 2), 0.03),
         (depot(6, 2, 6, 3), 0.02),
