@@ -91,7 +91,7 @@ impl Ahead {
             effort: 0,
         };
         let needed: Vec<FactId> =
-            ahead.to_bring(&crate::portfolio::relaxed::initial(task)).unwrap_or_default();
+            ahead.wanted(&crate::portfolio::relaxed::initial(task)).unwrap_or_default();
         // What is needed at first goes before what may be needed later, or what few operators bring before the rest.
         let mut by_few: Vec<FactId> = task.fact_ids().collect();
         by_few.sort_by_key(|fact| by[fact.index()].len());
@@ -158,10 +158,10 @@ impl Ahead {
 
     /// None where the goal is out of reach.
     pub(super) fn steps(&mut self, state: &[u64]) -> Option<u32> {
-        let to_bring = self.to_bring(state)?;
-        let uses: Vec<Use> = to_bring.iter().filter_map(|fact| self.counts[fact.index()]).collect();
-        let count = |wanted: Use| uses.iter().filter(|&&one| one == wanted).count();
-        let Some(hand) = self.hand.filter(|_| !to_bring.is_empty()) else {
+        let wanted = self.wanted(state)?;
+        let uses: Vec<Use> = wanted.iter().filter_map(|fact| self.counts[fact.index()]).collect();
+        let count = |of: Use| uses.iter().filter(|&&one| one == of).count();
+        let Some(hand) = self.hand.filter(|_| !wanted.is_empty()) else {
             return Some(uses.len() as u32);
         };
         // Takers and what frees the hand follow each other in turns.
@@ -174,20 +174,20 @@ impl Ahead {
     }
 
     /// Facts that must be brought, though some may hold now; none where one of them cannot be.
-    fn to_bring(&mut self, state: &[u64]) -> Option<Vec<FactId>> {
+    fn wanted(&mut self, state: &[u64]) -> Option<Vec<FactId>> {
         self.turn += 1;
         self.effort += self.goal.len() as u64;
         let Self { goal, bringers, seen, turn, effort, .. } = self;
         let holds = |fact: &FactId| bits::has(state, fact.index());
-        let mut to_bring: Vec<FactId> = Vec::new();
-        let mut add = |to_bring: &mut Vec<FactId>, fact: FactId| {
+        let mut wanted: Vec<FactId> = Vec::new();
+        let mut add = |wanted: &mut Vec<FactId>, fact: FactId| {
             if std::mem::replace(&mut seen[fact.index()], *turn) != *turn {
-                to_bring.push(fact);
+                wanted.push(fact);
             }
         };
-        goal.iter().filter(|goal| !holds(goal)).for_each(|&goal| add(&mut to_bring, goal));
+        goal.iter().filter(|goal| !holds(goal)).for_each(|&goal| add(&mut wanted, goal));
         let mut at = 0;
-        while let Some(&fact) = to_bring.get(at) {
+        while let Some(&fact) = wanted.get(at) {
             at += 1;
             let is_first =
                 |bringer: &&Bringer| holds(&fact) || bringer.only_later.iter().all(holds);
@@ -205,8 +205,8 @@ impl Ahead {
                 *effort += 1;
             }
             *effort += 1 + (needs.len() + effects.len()) as u64;
-            needs.into_iter().chain(effects).for_each(|fact| add(&mut to_bring, fact));
+            needs.into_iter().chain(effects).for_each(|fact| add(&mut wanted, fact));
         }
-        Some(to_bring)
+        Some(wanted)
     }
 }
