@@ -58,6 +58,17 @@ impl Named {
         task.check_invariants();
         task
     }
+
+    /// The same of facts whose names are words, the first of them the predicate.
+    pub(super) fn task_in_words(self, init: &[FactId], goal: &[FactId]) -> Task {
+        let mut task = self.task(init, goal);
+        for fact in &mut task.facts {
+            let words: Vec<String> = fact.predicate.split(' ').map(str::to_owned).collect();
+            fact.predicate = words[0].as_str().into();
+            fact.args = words[1..].iter().map(|word| word.as_str().into()).collect();
+        }
+        task
+    }
 }
 
 fn sorted(facts: &[FactId]) -> Vec<FactId> {

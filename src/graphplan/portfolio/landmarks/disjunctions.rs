@@ -143,13 +143,7 @@ mod tests {
             init.push(named.fact(&format!("lies {parcel} {}", random.below(places))));
             goal.push(named.fact(&format!("lies {parcel} {}", random.below(places))));
         }
-        let mut task = named.task(&init, &goal);
-        for fact in &mut task.facts {
-            let words: Vec<String> = fact.predicate.split(' ').map(str::to_owned).collect();
-            fact.predicate = words[0].as_str().into();
-            fact.args = words[1..].iter().map(|word| word.as_str().into()).collect();
-        }
-        task
+        named.task_in_words(&init, &goal)
     }
 
     #[test]

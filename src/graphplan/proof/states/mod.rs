@@ -253,13 +253,7 @@ mod tests {
                 goal.push(told);
             }
         }
-        let mut task = named.task(&init, &goal);
-        for fact in &mut task.facts {
-            let words: Vec<String> = fact.predicate.split(' ').map(str::to_owned).collect();
-            fact.predicate = words[0].as_str().into();
-            fact.args = words[1..].iter().map(|word| word.as_str().into()).collect();
-        }
-        task
+        named.task_in_words(&init, &goal)
     }
 
     /// Blocks that one hand takes up and puts down on others or on the table; some of them are wanted somewhere.
