@@ -1,7 +1,7 @@
 //! The dictionary of Russian word forms, carried packed: 16 MB less of a program.
 //!
 //! What is carried is the published dictionary without what guesses at words that it does not have, which nobody here asks
-//! for: its automaton of words with equal ends told once, laid out in columns ([`automaton`]), and compressed.
+//! for: its automaton of words with equal ends told once, laid out in columns (`automaton`), and compressed.
 
 use std::io::{Read as _, Result};
 
