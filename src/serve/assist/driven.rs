@@ -26,6 +26,10 @@ const ASK_EVERY: u64 = 500;
 /// Whoever drives must be heard of.
 const BEAT: Duration = Duration::from_secs(20);
 
+/// A client that does not take what it is told of the progress within this time hears of the next. Who has gone never
+/// takes it, and its call must end all the same.
+const HEARS: Duration = Duration::from_secs(1);
+
 /// A plan that was begun.
 pub(super) struct Driven {
     house: Arc<House>,
@@ -98,8 +102,8 @@ impl Asker<'_> {
             Self::Call(context, Some(token)) => {
                 let progress = ProgressNotificationParam::new(token.clone(), far.now);
                 let progress = progress.with_total(far.of).with_message(words);
-                // Who has gone hears nothing; the call is cancelled then.
-                let _ = context.peer.notify_progress(progress).await;
+                let told = context.peer.notify_progress(progress);
+                let _ = tokio::time::timeout(HEARS, told).await;
             }
             Self::Call(_, None) => {}
             Self::Task(context) => context.set_status_message(words),

@@ -367,8 +367,10 @@ async def main():
         await as_a_task(OverHttp)
     with tempfile.TemporaryDirectory() as folder:
         await nobody_to_ask(f"{folder}/store")
-    with tempfile.TemporaryDirectory() as folder:
-        leaves(f"{folder}/store")
+    # It goes while it is told of the progress, or in between.
+    for _ in range(8):
+        with tempfile.TemporaryDirectory() as folder:
+            leaves(f"{folder}/store")
     print("all works")
 
 
