@@ -424,7 +424,8 @@ impl Tasks {
     /// Notes how a task ended. One that was broken off waits on, and begins when somebody says so.
     fn ended(&self, mut task: Task, view: Value, mut end: TaskEnd, dialogue: Option<Dialogue>) {
         let (id, by) = (task.id, task.by.name.clone());
-        end.stopped_by = {
+        // Who looks sees it driven or ended, and never neither.
+        let ended = {
             let mut book = self.book();
             // Who spoke since has said something newer.
             if let Some(dialogue) = dialogue
@@ -448,13 +449,16 @@ impl Tasks {
                 }
                 book.wait(task);
             }
-            running.and_then(|running| running.why)
+            end.stopped_by = running.and_then(|running| running.why);
+            let ended = views::ended(view, &end);
+            book.end(&ended);
+            ended
         };
         self.events.robot_is(Value::Null);
         if let Some(why) = &end.stopped_by {
             self.events.tell("stopped", &views::stopped(why, id));
         }
-        self.end(&views::ended(view, &end));
+        self.events.tell("task", &ended);
         self.note(&by);
     }
 

@@ -52,6 +52,10 @@ pub(crate) enum Effort {
 const FEW_STATES: u64 = 20_000;
 const FEW_RELAXED: u64 = 1 << 29;
 
+/// Times that effort that best-first search has each time search by width has looked at so many more states: on large
+/// tasks it takes as long then.
+const BESIDE_WIDTH: u64 = 4;
+
 /// States looked at by width before landmarks are followed, with small effort, and most of all.
 const FEWEST_STATES_BY_WIDTH: usize = 10_000;
 const FEW_STATES_BY_WIDTH: usize = 50_000;
@@ -178,7 +182,7 @@ impl<'a> Forward<'a> {
                     return Ok(found);
                 }
             }
-            let times = if by_width { times as u64 } else { u64::MAX };
+            let times = if by_width { BESIDE_WIDTH * times as u64 } else { u64::MAX };
             if let Some(found) = self.on(&mut best_first, times)? {
                 return Ok(found);
             }
