@@ -11,12 +11,12 @@
 
 use std::collections::{HashMap, HashSet, VecDeque};
 
-use super::applicable::Applicable;
 use super::best_first::{BestFirst, Come, End, Guide, Stage};
 use super::landmarks::Landmarks;
 use super::novelty::{self, Searched};
 use super::parallel::{in_parallel, needful};
 use super::relaxed::{Relaxed, State, carry_out, holds, initial};
+use crate::allowed::Allowed;
 use crate::plan::Plan;
 use crate::strips::{FactId, OperatorId, Task};
 use crate::{Attempt, Limit, Limits, Way};
@@ -115,8 +115,8 @@ struct Forward<'a> {
 
 impl<'a> Forward<'a> {
     fn new(task: &'a Task, limits: &'a Limits, effort: Effort) -> Self {
-        let (relaxed, applicable) = (Relaxed::by_sum(task), Applicable::new(task));
-        let guide = Guide { task, limits, relaxed, applicable, evaluated: 0 };
+        let (relaxed, allowed) = (Relaxed::by_sum(task), Allowed::new(task));
+        let guide = Guide { task, limits, relaxed, allowed, evaluated: 0 };
         Self { guide, by_layers: Relaxed::new(task), effort }
     }
 

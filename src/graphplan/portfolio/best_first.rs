@@ -8,9 +8,9 @@ use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
-use super::applicable::Applicable;
 use super::landmarks::{Attained, Landmarks};
 use super::relaxed::{Estimate, Relaxed, State, carry_out};
+use crate::allowed::Allowed;
 use crate::bits;
 use crate::strips::{OperatorId, Task};
 use crate::{Limit, Limits};
@@ -20,7 +20,7 @@ pub(super) struct Guide<'a> {
     pub(super) task: &'a Task,
     pub(super) limits: &'a Limits,
     pub(super) relaxed: Relaxed<'a>,
-    pub(super) applicable: Applicable,
+    pub(super) allowed: Allowed,
     pub(super) evaluated: u64,
 }
 
@@ -40,9 +40,8 @@ impl Guide<'_> {
     }
 
     /// What a state allows: first operators of its relaxed plan and those that bring a landmark wanted next.
-    fn successors(&self, state: &State, plan: &[OperatorId], wanted: &[u64]) -> Successors {
-        let mut operators = Vec::new();
-        self.applicable.of(state, &mut operators);
+    fn successors(&mut self, state: &State, plan: &[OperatorId], wanted: &[u64]) -> Successors {
+        let operators = self.allowed.by(state);
         let planned: HashSet<OperatorId> = plan.iter().copied().collect();
         let brings = |id: &OperatorId| {
             let mut adds = self.task.operator(*id).add_effects.iter();

@@ -3,7 +3,6 @@
 
 pub(crate) mod any;
 mod anytime;
-mod applicable;
 mod best_first;
 mod fewer;
 mod landmarks;

@@ -9,9 +9,9 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
-use super::applicable::Applicable;
 use super::landmarks::{Attained, Landmarks};
 use super::relaxed::{Relaxed, State, carry_out, holds, initial};
+use crate::allowed::Allowed;
 use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
 use crate::{Limit, Limits};
@@ -37,7 +37,7 @@ pub(crate) fn search(
     let mut search = Width {
         task,
         landmarks,
-        applicable: Applicable::new(task),
+        allowed: Allowed::new(task),
         novelty: Novelty::new(task.facts.len(), limits.memory_bytes / PART_FOR_PAIRS),
         seen: HashSet::new(),
         nodes: Vec::new(),
@@ -67,7 +67,7 @@ struct Node {
 struct Width<'a> {
     task: &'a Task,
     landmarks: Option<&'a Landmarks>,
-    applicable: Applicable,
+    allowed: Allowed,
     novelty: Novelty,
     seen: HashSet<State>,
     nodes: Vec<Node>,
@@ -91,10 +91,8 @@ impl Width<'_> {
             return Ok(Searched::Path(Vec::new()));
         }
         self.add(initial, attained, None, relaxed);
-        let mut operators = Vec::new();
         while let Some(Reverse((_, _, number))) = self.queue.pop() {
-            self.applicable.of(&self.nodes[number as usize].state, &mut operators);
-            for &id in &operators {
+            for id in self.allowed.by(&self.nodes[number as usize].state) {
                 let next = self.after(number, id);
                 if self.seen.contains(&next) {
                     continue;
