@@ -18,6 +18,7 @@ mod dialogue;
 mod doors;
 mod doubts;
 mod drawings;
+mod english_rules;
 mod exports;
 mod facts;
 #[expect(dead_code, reason = "some of it serves the tests of the rules' crate alone")]

@@ -25,7 +25,11 @@ pub(crate) fn stands(texts: &Texts, task: &Task, plan: &Plan) -> bool {
 
 /// A rule file, with what the files that it includes say in their places.
 pub(crate) fn whole(path: &Path) -> String {
-    let line = |line: &str| match line.trim_start().strip_prefix("Включить:") {
+    let included = |line: &str| {
+        let line = line.trim_start();
+        line.strip_prefix("Включить:").or_else(|| line.strip_prefix("Include:")).map(str::to_owned)
+    };
+    let line = |line: &str| match included(line) {
         Some(included) => whole(&path.with_file_name(included.trim())),
         None => line.to_owned(),
     };

@@ -110,7 +110,7 @@ fn text(start: &str, goal: &str) -> String {
 
 /// The same with all that a map gives to it.
 pub(crate) fn texts(engine: &Engine, start: &str, goal: &str) -> Texts {
-    let facts = engine.facts_in_rule_text(None).unwrap();
+    let facts = engine.facts_in_rule_text(None, Language::Russian).unwrap();
     Texts::Rules(text(start, goal) + &facts)
 }
 

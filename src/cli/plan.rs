@@ -311,7 +311,7 @@ fn facts(common: &Common, predicate: Option<&str>) -> Result<Answer, Failure> {
     if common.json {
         return say(&json::given_facts(&engine.facts_given(predicate)?).to_string());
     }
-    let facts = engine.facts_in_rule_text(predicate)?;
+    let facts = engine.facts_in_rule_text(predicate, common.lang.language())?;
     if facts.is_empty() {
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
     }

@@ -1,12 +1,15 @@
 //! The facts that the map gives to planning, in the language of rule files: what is written reads back.
 
-use std::collections::BTreeSet;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
+use crate::map::World;
 use crate::robot::facts_of_map;
 use crate::semantics::planning::InitialFact;
-use crate::strips::in_quotes;
-use crate::units::{Gather as _, name_key};
+use crate::strips::{Domain, in_quotes};
+use crate::units::{Gather as _, Language, name_key};
 
+use super::plan::name_in_english_rules;
 use super::{Error, State};
 
 impl State {
@@ -19,9 +22,14 @@ impl State {
         if let Some(name) = predicate {
             // The paper writes an underscore before the bracket.
             let name = name.trim_end_matches(['(', ')', '_', ' ']);
-            let told = |fact: &InitialFact| name_key(fact.predicate) == name_key(name);
+            let robot = &self.rules.robot;
+            let wanted = robot.predicate(name);
+            let told = |fact: &InitialFact| {
+                name_key(fact.predicate) == name_key(name)
+                    || (wanted.is_some() && robot.predicate(fact.predicate) == wanted)
+            };
             if !facts.iter().any(told) {
-                self.rules.robot.known_predicate(name)?;
+                robot.known_predicate(name)?;
             }
             facts.retain(told);
         }
@@ -32,13 +40,57 @@ impl State {
     ///
     /// # Errors
     /// As [`State::facts_given`].
-    pub fn facts_in_rule_text(&self, predicate: Option<&str>) -> Result<String, Error> {
-        Ok(in_rule_file(&self.facts_given(predicate)?))
+    pub fn facts_in_rule_text(
+        &self,
+        predicate: Option<&str>,
+        language: Language,
+    ) -> Result<String, Error> {
+        let facts = self.facts_given(predicate)?;
+        let names = Names::of(&facts, self.world()?, &self.rules.robot, language);
+        Ok(in_rule_file(&facts, &names))
+    }
+}
+
+/// What a rule file of a language calls what facts are of.
+struct Names<'a> {
+    domain: &'a Domain,
+    language: Language,
+    /// By their names, the other ones of objects that no two share.
+    objects: BTreeMap<&'a str, String>,
+}
+
+impl<'a> Names<'a> {
+    fn of(facts: &'a [InitialFact], world: &World, domain: &'a Domain, language: Language) -> Self {
+        let names: BTreeSet<&str> =
+            facts.iter().flat_map(|fact| &fact.arguments).map(|a| a.name.as_str()).gather();
+        // In English hyphens stand for blanks, as they do in the papers' names.
+        let other = |name: &str| match language {
+            Language::Russian => name.to_owned(),
+            Language::English => name_in_english_rules(world, name).replace(' ', "-"),
+        };
+        let mut objects: BTreeMap<&str, String> =
+            names.into_iter().map(|name| (name, other(name))).collect();
+        let mut bearers: BTreeMap<String, usize> = BTreeMap::new();
+        let keys = objects
+            .iter()
+            .flat_map(|(name, other)| BTreeSet::from([name_key(name), name_key(other)]));
+        keys.for_each(|key| *bearers.entry(key).or_default() += 1);
+        objects.retain(|_, other| bearers[&name_key(other)] == 1);
+        Self { domain, language, objects }
+    }
+
+    fn object(&self, name: &'a str) -> Cow<'_, str> {
+        in_quotes(self.objects.get(name).map_or(name, String::as_str))
+    }
+
+    fn fact(&self, fact: &'a InitialFact) -> String {
+        let args: Vec<_> = fact.arguments.iter().map(|a| self.object(&a.name)).collect();
+        format!("{}_({})", self.domain.called(fact.predicate, self.language), args.join(", "))
     }
 }
 
 /// Facts as a rule file states them: the objects with their types, the facts, the assumptions.
-fn in_rule_file(facts: &[InitialFact]) -> String {
+fn in_rule_file<'a>(facts: &'a [InitialFact], names: &Names<'a>) -> String {
     let mut text = String::new();
     let objects: BTreeSet<(&str, &str)> = facts
         .iter()
@@ -50,11 +102,15 @@ fn in_rule_file(facts: &[InitialFact]) -> String {
             text.push_str(&format!("{gap}{head}:\n{}\n", lines.join("\n")));
         }
     };
-    let object = |(kind, name): &(&str, &str)| format!("{} — {kind}", in_quotes(name));
-    section("Объекты", objects.iter().map(object).collect());
-    for (head, assumed) in [("Факты", false), ("Предположения", true)] {
+    let object = |(kind, name): &(&str, &str)| {
+        format!("{} — {}", names.object(name), names.domain.called_kind(kind, names.language))
+    };
+    section(names.language.pick("Объекты", "Objects"), objects.iter().map(object).collect());
+    let heads = [(("Факты", "Facts"), false), (("Предположения", "Assumptions"), true)];
+    for ((russian, english), assumed) in heads {
         let stated = facts.iter().filter(|fact| fact.assumed == assumed);
-        section(head, stated.map(in_rule_text).collect());
+        let head = names.language.pick(russian, english);
+        section(head, stated.map(|fact| names.fact(fact)).collect());
     }
     text
 }

@@ -12,6 +12,7 @@ use crate::semantics::predicate;
 use crate::strips::{RuleError, RuleFault, RuleFaults, Scenario};
 use crate::units::{Bilingual, ReplicaId, Stop, name_key};
 
+use super::plan::call_in_english;
 use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
 
@@ -80,7 +81,10 @@ impl State {
             return self.not_begun(failure);
         }
         keep_homes(scenario, &mut belief);
-        let known = Known::of(belief.facts(relations));
+        let believed = belief.facts(relations);
+        let mut scenario = scenario.clone();
+        call_in_english(&mut scenario.problem, self.world()?, &believed);
+        let known = Known::of(believed);
         let mut faults: Vec<RuleFault> = scenario
             .problem
             .stated_facts()

@@ -15,6 +15,7 @@ use super::error::{Place, RuleError};
 use super::fault::RuleFault;
 use super::hint::{hint, perhaps};
 use super::phrases::phrases;
+use super::second::SecondNames;
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Document, Name, Parameter, Term};
 use crate::units::{Bilingual, Language, name_key};
 
@@ -23,9 +24,10 @@ use crate::units::{Bilingual, Language, name_key};
 /// Beside them, what of the goal is no plain fact, and what is wanted where it can be had.
 pub(super) fn domain(
     document: &Document,
+    second: SecondNames,
     faults: &mut Vec<RuleFault>,
 ) -> (Domain, (Vec<Formula>, Vec<Option<Formula>>)) {
-    let domain = Checker::kinds(document, faults);
+    let domain = Domain { second: Arc::new(second), ..Checker::kinds(document, faults) };
     let (functions, actions) = (HashMap::new(), HashMap::new());
     let mut checker = Checker { domain, constants: None, functions, actions, faults };
     checker.declare_objects(document);
@@ -65,18 +67,17 @@ pub(super) type Scope = HashMap<String, (u32, KindSet)>;
 
 impl Checker<'_> {
     fn kind(&mut self, name: &Name) -> Option<KindId> {
-        let found = self.domain.kind(&name.text);
+        let found = self.domain.kind(name.first());
         if found.is_none() {
-            let help =
-                hint(&name.text, self.domain.kinds.iter().map(|k| k.name.as_str())).or_else(|| {
-                    Some(
-                        (
-                            "объявите тип в разделе «Типы»",
-                            "declare the type under “Types:” (PDDL: :types)",
-                        )
-                            .into(),
+            let help = hint(&name.text, self.domain.names_of_kinds()).or_else(|| {
+                Some(
+                    (
+                        "объявите тип в разделе «Типы»",
+                        "declare the type under “Types:” (PDDL: :types)",
                     )
-                });
+                        .into(),
+                )
+            });
             self.faults.push(name.fault(|at| RuleError::UnknownType {
                 name: name.text.clone(),
                 help,
@@ -232,17 +233,16 @@ impl Checker<'_> {
         atom: &Atom,
     ) -> Option<SchemaAtom> {
         let name = &atom.predicate;
-        let Some(predicate) = self.domain.predicate(&name.text) else {
-            let help = hint(&name.text, self.domain.predicates.iter().map(|p| p.name.as_str()))
-                .or_else(|| {
-                    Some(
-                        (
-                            "объявите его в разделе «Предикаты»",
-                            "declare it under “Predicates:” (PDDL: :predicates)",
-                        )
-                            .into(),
+        let Some(predicate) = self.domain.predicate(name.first()) else {
+            let help = hint(&name.text, self.domain.names_of_predicates()).or_else(|| {
+                Some(
+                    (
+                        "объявите его в разделе «Предикаты»",
+                        "declare it under “Predicates:” (PDDL: :predicates)",
                     )
-                });
+                        .into(),
+                )
+            });
             let error = |at| RuleError::UnknownPredicate { name: name.text.clone(), help, at };
             self.faults.push(name.fault(error));
             let _ = self.terms(action, scope, atom);
@@ -254,7 +254,7 @@ impl Checker<'_> {
                 name: name.text.clone(),
                 expected: signature.args.len(),
                 found: atom.args.len(),
-                help: self.domain.signature(predicate),
+                help: self.domain.signature(predicate, &name.text),
                 at,
             }));
             let _ = self.terms(action, scope, atom);
@@ -273,12 +273,12 @@ impl Checker<'_> {
                 || self.domain.fits(wanted, &have);
             if !may_fit {
                 self.faults.push(term.name.fault(|at| RuleError::ArgumentType {
-                    name: signature.name.clone(),
+                    name: name.text.clone(),
                     number: place + 1,
                     expected: self.domain.kind_names(wanted),
                     term: term.name.text.clone(),
                     found: self.domain.kind_names(&have),
-                    help: self.domain.signature(predicate),
+                    help: self.domain.signature(predicate, &name.text),
                     at,
                 }));
             }

@@ -93,13 +93,13 @@ impl Checker<'_> {
             parameters: rule.parameters.clone(),
             ..ActionText::new(rule.atom.predicate.clone())
         };
-        let mut schema = Schema::new(&rule.atom.predicate.text);
+        let mut schema = Schema::new(rule.atom.predicate.first());
         let scope = self.parameters(&rule.parameters, &mut schema);
         let Some(atom) = self.atom(&action, &scope, &rule.atom) else { return };
         for (variables, conditions) in cases(&rule.parameters, &rule.condition) {
             let hidden: Vec<Parameter> =
                 rule.parameters.iter().chain(&variables).cloned().collect();
-            let mut schema = Schema::new(&rule.atom.predicate.text);
+            let mut schema = Schema::new(rule.atom.predicate.first());
             let scope = self.parameters(&hidden, &mut schema);
             let action =
                 ActionText { parameters: hidden, precondition: conditions, ..action.clone() };
@@ -125,7 +125,7 @@ impl Checker<'_> {
         let stated = document.facts.iter().chain(&document.assumptions);
         changed.extend(stated.filter_map(Condition::first_name));
         for name in changed {
-            let Some(predicate) = self.domain.predicate(&name.text) else { continue };
+            let Some(predicate) = self.domain.predicate(name.first()) else { continue };
             if self.domain.is_derived(predicate) && told.insert(name.key()) {
                 let of = name.text.clone();
                 self.faults.push(name.fault(|at| RuleError::DerivedStated { name: of, at }));
@@ -134,7 +134,7 @@ impl Checker<'_> {
         let needs = self.domain.needs();
         for rule in &document.derived {
             let name = &rule.atom.predicate;
-            let Some(own) = self.domain.predicate(&name.text) else { continue };
+            let Some(own) = self.domain.predicate(name.first()) else { continue };
             let absent = needs.get(&own).into_iter().flatten().filter(|(_, negated)| *negated);
             if absent.into_iter().any(|(of, _)| reaches(&needs, *of, own))
                 && told.insert(format!("not {}", name.key()))

@@ -29,13 +29,14 @@ impl Checker<'_> {
             derived: Vec::new(),
             cost_unit: document.cost_unit(),
             phrases: Arc::default(),
+            second: Arc::default(),
             introduced: HashMap::new(),
         };
         fn introduce(domain: &mut Domain, name: &Name) -> KindId {
             let next = KindId(domain.kinds.len() as u32);
             let id = *domain.kind_index.entry(name.key()).or_insert(next);
             if id == next {
-                domain.kinds.push(Kind { name: name.text.clone(), parents: Vec::new() });
+                domain.kinds.push(Kind { name: name.first().to_owned(), parents: Vec::new() });
             }
             id
         }
@@ -107,7 +108,7 @@ impl Checker<'_> {
         let mut first: HashMap<String, (&Name, KindSet)> = HashMap::new();
         for Declaration { name, kinds } in &document.objects {
             let mut kinds: KindSet =
-                kinds.iter().filter_map(|kind| self.domain.kind(&kind.text)).collect();
+                kinds.iter().filter_map(|kind| self.domain.kind(kind.first())).collect();
             let is_untyped = kinds.is_empty();
             if is_untyped {
                 kinds.push(ANY_KIND);
@@ -176,13 +177,13 @@ impl Checker<'_> {
 
     pub(super) fn declare_predicates(&mut self, document: &Document) {
         for signature in &document.predicates {
-            if let Some(known) = self.domain.predicate(&signature.name.text) {
+            if let Some(known) = self.domain.predicate(signature.name.first()) {
                 let first = self.domain.introduced.get(&known).cloned();
                 self.duplicate(("предикат", "the predicate"), &signature.name, first);
                 continue;
             }
             let args = signature.args.iter().map(|kinds| self.kind_set(kinds)).collect();
-            let id = self.add_predicate(&signature.name.text, args);
+            let id = self.add_predicate(signature.name.first(), args);
             self.domain.introduced.insert(id, signature.name.at.clone());
         }
     }
@@ -205,7 +206,7 @@ impl Checker<'_> {
                         _ => term.kind.as_slice(),
                     };
                     let kinds: KindSet =
-                        names.iter().filter_map(|name| self.domain.kind(&name.text)).collect();
+                        names.iter().filter_map(|name| self.domain.kind(name.first())).collect();
                     (!kinds.is_empty()).then_some(kinds)
                 })
                 .collect();
@@ -214,9 +215,9 @@ impl Checker<'_> {
     }
 
     fn infer_from(&mut self, atom: &Atom, args: &[Option<KindSet>], declared: usize) {
-        let Some(id) = self.domain.predicate(&atom.predicate.text) else {
+        let Some(id) = self.domain.predicate(atom.predicate.first()) else {
             let args = args.iter().map(|kinds| kinds.clone().unwrap_or_default()).collect();
-            let id = self.add_predicate(&atom.predicate.text, args);
+            let id = self.add_predicate(atom.predicate.first(), args);
             self.domain.introduced.insert(id, atom.predicate.at.clone());
             return;
         };

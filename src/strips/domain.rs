@@ -10,6 +10,7 @@ use super::fault::{RuleFault, RuleFaults};
 use super::hint::hint;
 use super::indices::indices;
 use super::phrase::Phrases;
+use super::second::{Second, SecondNames};
 use crate::units::{Bilingual, Language, name_key};
 
 indices! {
@@ -163,6 +164,7 @@ pub struct Domain {
     /// How many units of cost are one; costs with decimals are counted in thousandths.
     pub(super) cost_unit: u32,
     pub(super) phrases: Arc<Phrases>,
+    pub(super) second: Arc<SecondNames>,
     /// Where each predicate was declared, or else first spoken of as it is understood.
     pub(super) introduced: HashMap<PredicateId, Place>,
 }
@@ -171,7 +173,9 @@ impl Domain {
     /// The type of this name in any of its spellings.
     #[must_use]
     pub fn kind(&self, name: &str) -> Option<KindId> {
-        self.kind_index.get(&name_key(name)).copied()
+        let key = name_key(name);
+        let of = |second: &Second| self.kind_index.get(&name_key(&second.of));
+        self.kind_index.get(&key).or_else(|| of(self.second.kinds.get(&key)?)).copied()
     }
 
     #[must_use]
@@ -183,7 +187,35 @@ impl Domain {
     /// `at` and `at_` apart, and the rule text, where the paper writes one before the bracket, is read without it.
     #[must_use]
     pub fn predicate(&self, name: &str) -> Option<PredicateId> {
-        self.predicate_index.get(&name_key(name)).copied()
+        let key = name_key(name);
+        let of = |second: &Second| self.predicate_index.get(&name_key(&second.of));
+        self.predicate_index.get(&key).or_else(|| of(self.second.predicates.get(&key)?)).copied()
+    }
+
+    /// What a text of this language calls a predicate: its second name there, or the only one that it has.
+    #[must_use]
+    pub fn called<'a>(&'a self, predicate: &'a str, language: Language) -> &'a str {
+        SecondNames::in_language(&self.second.predicates, predicate, language).unwrap_or(predicate)
+    }
+
+    /// What a text of this language calls a type.
+    #[must_use]
+    pub fn called_kind<'a>(&'a self, kind: &'a str, language: Language) -> &'a str {
+        let of_root = || language == Language::English && self.kind(kind) == Some(ANY_KIND);
+        let second = SecondNames::in_language(&self.second.kinds, kind, language);
+        second.unwrap_or_else(|| if of_root() { "object" } else { kind })
+    }
+
+    /// Every name of a predicate, for hints.
+    pub(super) fn names_of_predicates(&self) -> impl Iterator<Item = &str> {
+        let second = self.second.predicates.values().map(|second| second.text.as_str());
+        self.predicates.iter().map(|predicate| predicate.name.as_str()).chain(second)
+    }
+
+    /// Every name of a type, for hints.
+    pub(super) fn names_of_kinds(&self) -> impl Iterator<Item = &str> {
+        let second = self.second.kinds.values().map(|second| second.text.as_str());
+        self.kinds.iter().map(|kind| kind.name.as_str()).chain(second)
     }
 
     /// The predicate of this name, or what may have been meant.
@@ -192,7 +224,7 @@ impl Domain {
     /// [`RuleError::UnknownPredicate`].
     pub fn known_predicate(&self, name: &str) -> Result<PredicateId, RuleFaults> {
         self.predicate(name).ok_or_else(|| {
-            let help = hint(name, self.predicates.iter().map(|p| p.name.as_str()));
+            let help = hint(name, self.names_of_predicates());
             let (name, at) = (name.to_owned(), (0, 0).into());
             RuleFault::placeless(RuleError::UnknownPredicate { name, help, at }).into()
         })
@@ -289,7 +321,7 @@ impl Domain {
 
     pub(super) fn kind_names(&self, kinds: &[KindId]) -> Bilingual {
         let name = |kind: &KindId| self.kinds[kind.index()].name.as_str();
-        let english = |kind: &KindId| if *kind == ANY_KIND { "object" } else { name(kind) };
+        let english = |kind: &KindId| self.called_kind(name(kind), Language::English);
         Bilingual::new(
             kinds.iter().map(name).collect::<Vec<_>>().join(" или "),
             kinds.iter().map(english).collect::<Vec<_>>().join(" or "),
@@ -298,9 +330,9 @@ impl Domain {
 }
 
 impl Domain {
-    /// `ДВЕРЬ_НАХОДИТСЯ-В_(дверь, помещение)`, for messages.
-    pub(super) fn signature(&self, predicate: PredicateId) -> Bilingual {
-        let Predicate { name, args } = &self.predicates[predicate.index()];
+    /// `ДВЕРЬ_НАХОДИТСЯ-В_(дверь, помещение)`, for messages about what was written by one of its names.
+    pub(super) fn signature(&self, predicate: PredicateId, name: &str) -> Bilingual {
+        let Predicate { args, .. } = &self.predicates[predicate.index()];
         let told = |language: Language| {
             let args: Vec<String> = args
                 .iter()

@@ -87,6 +87,9 @@ impl RuleError {
             Self::Duplicate { what, name, .. } => {
                 format!("{} “{name}” is declared a second time", en(what))
             }
+            Self::SecondNameOfAction { name, .. } => {
+                format!("“{name}” is an action: predicates and types may have a second name")
+            }
             Self::ObjectTwice { name, found, earlier, .. } => format!(
                 "the object “{name}” is declared twice: here as “{}”, and before as “{}”",
                 en(found),
@@ -230,6 +233,7 @@ impl RuleError {
                 "break the circle: a negation under a derived predicate must not lead back to it"
             }
             Self::NoPrice { .. } => "give its value in :init: (= (function object …) number)",
+            Self::SecondNameOfAction { .. } => "remove it; the words in quotation marks stay",
             Self::LonelyType { help, .. }
             | Self::Unsupported { help, .. }
             | Self::Arity { help, .. }

@@ -327,6 +327,18 @@ pub enum RuleError {
         first: Option<SourceSpan>,
     },
 
+    /// A second name is given to an action.
+    #[error("«{name}» – действие: второе имя бывает у предикатов и типов")]
+    #[diagnostic(
+        code(strips::second_name_of_action),
+        help("уберите второе имя; слова в кавычках останутся")
+    )]
+    SecondNameOfAction {
+        name: String,
+        #[label("второе имя")]
+        at: SourceSpan,
+    },
+
     /// An object declared twice, with types that have nothing in common.
     #[error("объект «{name}» объявлен дважды: здесь – «{found}», а раньше – «{earlier}»")]
     #[diagnostic(code(strips::object_twice), help("{help}"))]

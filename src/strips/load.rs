@@ -11,6 +11,7 @@ use super::ground::ground;
 use super::pddl;
 use super::problem::Problem;
 use super::rule_text;
+use super::second::settle_names;
 use super::slip::slips;
 use super::syntax::{Amount, CostTerm, Document, Name};
 use super::task::Task;
@@ -142,6 +143,7 @@ impl Scenario {
     /// Checks what was read even when `faults` came up in reading, so that one run tells everything.
     fn from_document(mut document: Document, mut faults: Vec<RuleFault>) -> (Self, Vec<RuleFault>) {
         let mut warnings = std::mem::take(&mut document.warnings);
+        let second = settle_names(&mut document, &mut faults);
         slips(&document, &mut faults, &mut warnings);
         if let (Some(own), Some(wanted)) = &document.domain_names
             && own.key() != wanted.key()
@@ -150,7 +152,7 @@ impl Scenario {
             let error = |at| RuleError::OtherDomain { wanted: name, found, at };
             warnings.push(wanted.fault(error));
         }
-        let (domain, goal) = check::domain(&document, &mut faults);
+        let (domain, goal) = check::domain(&document, second, &mut faults);
         let problem = Problem::of(&document, goal, &mut faults);
         problem.check(&domain, &mut faults);
         in_order_of_texts(&mut faults);

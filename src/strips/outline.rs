@@ -62,6 +62,10 @@ pub fn outline(source: &Source) -> Vec<Mark> {
     for phrase in &document.phrases {
         let means = if phrase.parameters.is_some() { Meaning::Predicate } else { Meaning::Type };
         marks.used(&phrase.name, means);
+        if let Some(second) = &phrase.second {
+            let told = format!("{} = {}", second.text, phrase.name.text);
+            marks.push(second, means, Some(format!("{told}\n«{}»", phrase.phrase.text)));
+        }
     }
     for action in &document.actions {
         let parameters: Vec<String> = action

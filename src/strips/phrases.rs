@@ -19,12 +19,12 @@ pub(super) fn phrases(
         let (name, key) = (&text.name, text.name.key());
         let vocabulary = phrases.of_mut(text.language);
         let schema = domain.schemas.iter().find(|schema| name_key(&schema.name) == key);
-        let predicate = domain.predicate(&name.text);
+        let predicate = domain.predicate(name.first());
         let Some(parameters) = &text.parameters else {
-            if domain.kind(&name.text).is_some() {
+            if domain.kind(name.first()).is_some() {
                 vocabulary.kinds.insert(key, text.phrase.text.clone());
             } else {
-                let help = hint(&name.text, domain.kinds.iter().map(|kind| kind.name.as_str()));
+                let help = hint(&name.text, domain.names_of_kinds());
                 let name = name.text.clone();
                 let error = |at| RuleError::UnknownType { name, help, at };
                 faults.push(text.name.fault(error));
@@ -32,7 +32,9 @@ pub(super) fn phrases(
             continue;
         };
         let (expected, help) = match (predicate, schema) {
-            (Some(id), _) => (domain.predicates[id.index()].args.len(), domain.signature(id)),
+            (Some(id), _) => {
+                (domain.predicates[id.index()].args.len(), domain.signature(id, &name.text))
+            }
             (None, Some(schema)) => {
                 let names = schema.parameter_names.join(", ");
                 let written = format!("{}_({names})", schema.name);
@@ -41,7 +43,7 @@ pub(super) fn phrases(
                 (schema.parameters.len(), help)
             }
             (None, None) => {
-                let predicates = domain.predicates.iter().map(|p| p.name.as_str());
+                let predicates = domain.names_of_predicates();
                 let known = predicates.chain(domain.schemas.iter().map(|s| s.name.as_str()));
                 let help = hint(&name.text, known);
                 let name = name.text.clone();

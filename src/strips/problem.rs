@@ -4,12 +4,14 @@
 //! a scenario may speak of objects that only the map knows. The world is closed: what is not stated is false.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use super::check::text_of;
 use super::domain::{Domain, Formula, PredicateId};
 use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
 use super::hint::hint;
+use super::other_names::OtherNames;
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
 use super::syntax::{Amount, Atom, Condition, Declaration, Document, Name};
@@ -58,6 +60,7 @@ pub struct Problem {
     preferences: Vec<(Preference, Formula)>,
     /// Assumptions that were made, and made no longer.
     pub(super) withdrawn: Vec<Statement>,
+    pub(super) called: OtherNames,
 }
 
 /// What is wanted where it can be had, and what it costs if it is not met, in thousandths.
@@ -90,6 +93,20 @@ impl Problem {
         self.facts.push(Statement::outside(predicate, args, false, Standing::Assumption));
     }
 
+    /// What else objects are called, each pair their name and another: by it a text, and the rules, may speak of them.
+    /// For blanks hyphens do as well. What several objects are called, or an object is named, means none of the others.
+    pub fn call<'n>(&mut self, pairs: impl IntoIterator<Item = (&'n str, &'n str)>) {
+        self.called = OtherNames::of(pairs);
+        let called = &self.called;
+        let stated = self.facts.iter_mut().chain(&mut self.goal).chain(&mut self.withdrawn);
+        let args = stated.flat_map(|statement| &mut statement.args);
+        for name in args.chain(self.objects.iter_mut().map(|object| &mut object.name)) {
+            if let Some(first) = called.first(name) {
+                *name = first.to_owned();
+            }
+        }
+    }
+
     /// Withdraws a fact or an assumption; whether it had been stated.
     pub fn withdraw(&mut self, predicate: &str, args: &[&str]) -> bool {
         let predicate = name_key(predicate);
@@ -115,7 +132,10 @@ impl Problem {
         let source = Source::own(OwnText::Assumption, text);
         let mut faults = Vec::new();
         let mut withdrawn = Vec::new();
-        for condition in conditions(&source)? {
+        for mut condition in conditions(&source)? {
+            if let Condition::Holds { atom, .. } = &mut condition {
+                self.settle(domain, atom);
+            }
             let (name, atom) = match &condition {
                 Condition::Holds { atom, negated: false } => (&atom.predicate, atom),
                 Condition::Holds { atom, .. } => {
@@ -148,6 +168,14 @@ impl Problem {
             withdrawn.extend(matched);
         }
         if faults.is_empty() { Ok(withdrawn) } else { Err(RuleFaults(faults)) }
+    }
+
+    /// Settles what an atom given from outside means.
+    fn settle(&self, domain: &Domain, atom: &mut Atom) {
+        domain.second.settle_atom(atom);
+        for term in &mut atom.args {
+            term.name.second_of = self.called.first(&term.name.text).map(Arc::from);
+        }
     }
 
     /// What is also known for a fact stays.
@@ -213,7 +241,8 @@ impl Problem {
                 if !is_theirs || known.contains(&name_key(name)) {
                     continue;
                 }
-                let help = hint(name, self.objects.iter().map(|o| o.name.as_str())).or_else(|| {
+                let objects = self.objects.iter().map(|object| object.name.as_str());
+                let help = hint(name, objects.chain(self.called.spelt())).or_else(|| {
                     let known = (
                         "карта не знает такого имени; нового назовите в «Объекты»",
                         "the map knows no such name; name a new one under “Objects:”",
@@ -304,7 +333,7 @@ impl Problem {
         for declaration in &document.objects {
             problem.objects.push(ObjectStatement {
                 name: declaration.name.text.clone(),
-                kinds: declaration.kinds.iter().map(|kind| kind.text.clone()).collect(),
+                kinds: declaration.kinds.iter().map(|kind| kind.first().to_owned()).collect(),
                 text: Some(declaration.clone()),
             });
         }
@@ -449,7 +478,7 @@ impl Statement {
 
     fn of(atom: &Atom, negated: bool, standing: Standing) -> Self {
         Self {
-            predicate: atom.predicate.text.clone(),
+            predicate: atom.predicate.first().to_owned(),
             args: atom.args.iter().map(|term| term.name.text.clone()).collect(),
             negated,
             standing,
@@ -457,19 +486,20 @@ impl Statement {
         }
     }
 
+    /// By which name the predicate was written.
+    pub(super) fn written(&self) -> &str {
+        self.text.as_ref().map_or(&self.predicate, |atom| &atom.predicate.text)
+    }
+
     pub(super) fn predicate(&self, domain: &Domain) -> Result<PredicateId, RuleFault> {
         let name = &self.predicate;
         let Some(predicate) = domain.predicate(name) else {
-            let help =
-                hint(name, domain.predicates.iter().map(|p| p.name.as_str())).or_else(|| {
-                    Some(
-                        (
-                            "правила не упоминают такого предиката",
-                            "the rules have no such predicate",
-                        )
-                            .into(),
-                    )
-                });
+            let help = hint(name, domain.names_of_predicates()).or_else(|| {
+                Some(
+                    ("правила не упоминают такого предиката", "the rules have no such predicate")
+                        .into(),
+                )
+            });
             return Err(self.fault(|at| RuleError::UnknownPredicate {
                 name: name.clone(),
                 help,
@@ -480,11 +510,12 @@ impl Statement {
         if expected == self.args.len() {
             return Ok(predicate);
         }
+        let written = self.written();
         Err(self.fault(|at| RuleError::Arity {
-            name: name.clone(),
+            name: written.to_owned(),
             expected,
             found: self.args.len(),
-            help: domain.signature(predicate),
+            help: domain.signature(predicate, written),
             at,
         }))
     }

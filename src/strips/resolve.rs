@@ -8,6 +8,7 @@ use super::domain::{
 use super::error::RuleError;
 use super::fault::{RuleFault, RuleFaults};
 use super::hint::hint;
+use super::other_names::OtherNames;
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
 use crate::units::{Bilingual, Gather as _, name_key};
@@ -61,6 +62,7 @@ impl Problem {
             index: HashMap::new(),
             faults: Vec::new(),
             closed: self.objects_closed,
+            called: &self.called,
         };
         resolver.objects(self);
         let goal_formulas = resolver.formulas(self);
@@ -92,11 +94,13 @@ struct Resolver<'a> {
     index: HashMap<String, ThingId>,
     faults: Vec<RuleFault>,
     closed: bool,
+    called: &'a OtherNames,
 }
 
 impl Resolver<'_> {
     fn introduce(&mut self, name: &str) -> ThingId {
         let next = ThingId(self.things.len() as u32);
+        let name = self.called.first(name).unwrap_or(name);
         let id = *self.index.entry(name_key(name)).or_insert(next);
         if id == next {
             self.things.push(Thing { name: name.to_owned(), kinds: KindSet::new() });
@@ -118,7 +122,7 @@ impl Resolver<'_> {
                     }
                     None => {
                         if let Some(declaration) = &object.text {
-                            let kinds = self.domain.kinds.iter().map(|kind| kind.name.as_str());
+                            let kinds = self.domain.names_of_kinds();
                             let (name, help) = (name.clone(), hint(name, kinds));
                             self.faults.push(
                                 declaration.kinds[place].fault(|at| RuleError::UnknownType {
@@ -145,6 +149,11 @@ impl Resolver<'_> {
             }
         }
         self.constants_of_rules();
+        for (other, name) in self.called.keys() {
+            if let Some(&id) = self.index.get(&name_key(name)) {
+                self.index.insert(other.to_owned(), id);
+            }
+        }
         self.infer_kinds(problem);
     }
 
@@ -305,7 +314,8 @@ impl Resolver<'_> {
     }
 
     fn unknown_object(&self, name: &str) -> impl FnOnce(miette::SourceSpan) -> RuleError + use<> {
-        let help = hint(name, self.things.iter().map(|thing| thing.name.as_str())).or_else(|| {
+        let known = self.things.iter().map(|thing| thing.name.as_str());
+        let help = hint(name, known.chain(self.called.spelt())).or_else(|| {
             let nobody = (
                 "ни факты, ни раздел «Объекты», ни карта не знают такого объекта",
                 "neither the facts, nor “Objects:” (PDDL: :objects), nor the map know such an object",
@@ -323,7 +333,7 @@ impl Resolver<'_> {
         };
         let Some(said) = &term.kind else { return };
         let kinds = &self.things[id.index()].kinds;
-        match self.domain.kind(&said.text) {
+        match self.domain.kind(said.first()) {
             Some(kind) if self.domain.fits(kinds, &[kind]) || self.domain.fits(&[kind], kinds) => {}
             Some(kind) => {
                 let error = |at| RuleError::ObjectType {
@@ -336,7 +346,7 @@ impl Resolver<'_> {
             }
             None => {
                 let (word, name) = (&said.text, &term.name.text);
-                let known = self.domain.kinds.iter().map(|kind| kind.name.as_str());
+                let known = self.domain.names_of_kinds();
                 let help = hint(word, known).unwrap_or_else(|| {
                     Bilingual::new(
                         format!("имя из нескольких слов пишут в кавычках: «{word} {name}»"),
@@ -366,12 +376,12 @@ impl Resolver<'_> {
             return;
         }
         let error = |at| RuleError::ArgumentType {
-            name: statement.predicate.clone(),
+            name: statement.written().to_owned(),
             number: place + 1,
             expected: self.domain.kind_names(wanted),
             term: thing.name.clone(),
             found: self.domain.kind_names(&thing.kinds),
-            help: self.domain.signature(predicate),
+            help: self.domain.signature(predicate, statement.written()),
             at,
         };
         // Two conflicting uses of an undeclared object have been told already.

@@ -1,5 +1,7 @@
 //! What a rule file or a PDDL file says, before anyone asked whether it means anything.
 
+use std::sync::Arc;
+
 use miette::SourceSpan;
 
 use super::error::{Place, RuleError};
@@ -11,15 +13,23 @@ use crate::units::{Language, Source, name_key};
 pub(super) struct Name {
     pub(super) text: String,
     pub(super) at: Place,
+    /// What the text names by a second name.
+    pub(super) second_of: Option<Arc<str>>,
 }
 
 impl Name {
     pub(super) fn new(text: &str, source: &Source, span: SourceSpan) -> Self {
-        Self { text: text.to_owned(), at: Place { source: source.clone(), span } }
+        let at = Place { source: source.clone(), span };
+        Self { text: text.to_owned(), at, second_of: None }
+    }
+
+    /// The first name of what is named.
+    pub(super) fn first(&self) -> &str {
+        self.second_of.as_deref().unwrap_or(&self.text)
     }
 
     pub(super) fn key(&self) -> String {
-        name_key(&self.text)
+        name_key(self.first())
     }
 
     pub(super) fn fault(&self, error: impl FnOnce(SourceSpan) -> RuleError) -> RuleFault {
@@ -262,7 +272,8 @@ pub(super) struct Signature {
     pub(super) args: Vec<Vec<Name>>,
 }
 
-/// `ДВЕРЬ_ИЗ_В_ОТКРЫТА_(?y, ?x, ?z) = «?y is open»`: how a predicate, an action or a type is said in a language.
+/// `ДВЕРЬ_ИЗ_В_ОТКРЫТА_(?y, ?x, ?z) = DOOR-OPEN = «?y is open»`: how a predicate, an action or a type is said in a language,
+/// and what a text may call it.
 #[derive(Debug, Clone)]
 pub(super) struct PhraseText {
     pub(super) language: Language,
@@ -270,6 +281,7 @@ pub(super) struct PhraseText {
     pub(super) name: Name,
     /// None for a type.
     pub(super) parameters: Option<Vec<Name>>,
+    pub(super) second: Option<Name>,
     pub(super) phrase: Name,
 }
 

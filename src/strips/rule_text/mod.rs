@@ -6,7 +6,7 @@
 //!              | ("Факты:" | "Исходная позиция:" | "Предположения:" | "Целевая позиция:") { condition }
 //!              | "Типы:" { name ["—" type {"," type}] }        | "Объекты:" { name ["—" type] }
 //!              | "Предикаты:" { name "(" [type {"," type}] ")" }
-//!              | ("По-русски:" | "По-английски:") { ["НЕ"] name ["(" [variable {"," variable}] ")"] "=" "«" phrase "»" }
+//!              | ("По-русски:" | "По-английски:") { ["НЕ"] name ["(" [variable {"," variable}] ")"] "=" [second-name "="] "«" phrase "»" }
 //!              | "Желательно:" { name [number] condition }
 //!              | "Включить:" path | "Карта:" path
 //! part        := "Параметры:" { [type] variable } | "Предусловие:" { condition }
@@ -500,8 +500,13 @@ impl<'a> Parser<'a> {
                 );
             }
             self.advance();
+            let named = !negated && self.kind_after(1) == Some(TokenKind::Equal);
+            let second = named.then(|| self.name(("второе имя", "a second name"))).transpose()?;
+            if second.is_some() {
+                self.advance();
+            }
             let phrase = self.name(("слова в кавычках", "words in quotation marks"))?;
-            let text = PhraseText { language, negated, name, parameters, phrase };
+            let text = PhraseText { language, negated, name, parameters, second, phrase };
             self.text.document.phrases.push(text);
         }
         Ok(())

@@ -149,6 +149,35 @@ fn tokens(text: &str) -> Vec<(Token, usize)> {
     tokens
 }
 
+/// Puts first names in the places of second ones: `ПЕРВОЕ_(?x) = SECOND = «words»`.
+fn by_first_names(tokens: &mut [(Token, usize)]) {
+    let mut first: Vec<(String, String)> = Vec::new();
+    let sign = |at: usize, sign| tokens.get(at).is_some_and(|(t, _)| *t == Token::Sign(sign));
+    for at in 1..tokens.len() {
+        let Some((Token::Word(second), _)) = tokens.get(at + 1) else { continue };
+        if !sign(at, '=') || !sign(at + 2, '=') {
+            continue;
+        }
+        let mut of = at - 1;
+        if sign(of, ')') {
+            of = (0..of)
+                .rev()
+                .find(|back| sign(*back, '('))
+                .map_or(0, |open| open.saturating_sub(1));
+        }
+        if let (Token::Word(name), _) = &tokens[of] {
+            first.push((second.clone(), name.clone()));
+        }
+    }
+    for (token, _) in tokens {
+        if let Token::Word(word) = token
+            && let Some((_, name)) = first.iter().find(|(second, _)| second == word)
+        {
+            word.clone_from(name);
+        }
+    }
+}
+
 impl Reader {
     fn token(&self, ahead: usize) -> Option<&Token> {
         self.tokens.get(self.next + ahead).map(|(token, _)| token)
@@ -525,7 +554,9 @@ impl Reader {
 }
 
 pub(super) fn read(text: &str) -> Read<Given> {
-    let mut reader = Reader { tokens: tokens(text), next: 0, given: Given::new(key) };
+    let mut tokens = tokens(text);
+    by_first_names(&mut tokens);
+    let mut reader = Reader { tokens, next: 0, given: Given::new(key) };
     reader.file()?;
     Ok(reader.given)
 }
