@@ -8,6 +8,7 @@ use crate::engine::{
     Dialogue, Engine, Method, Outcome, Reply, Rules, State, Truth, World, change_now,
     uncertain_names,
 };
+use crate::facts::Value;
 use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase};
 use crate::robot::{SensingRobot, Vehicle};
@@ -125,13 +126,13 @@ pub(super) fn relations(
     if rows.is_empty() {
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
     }
-    say(&text::facts(&match common.lang {
-        Lang::Ru => rows,
-        Lang::En => {
-            let called = |relation: String| relations.display_name(&relation, Language::English);
-            rows.into_iter().map(|(relation, values)| (called(relation), values)).collect()
-        }
-    }))
+    let language = common.lang.language();
+    let told = |(relation, values): &(String, Vec<Value>)| {
+        let values: Vec<String> =
+            values.iter().map(|value| engine.value_in_words(value, language)).collect();
+        text::fact(&relations.display_name(relation, language), &values)
+    };
+    say(&rows.iter().map(told).collect::<Vec<_>>().join("\n"))
 }
 
 pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure> {

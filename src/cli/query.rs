@@ -19,14 +19,16 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
     };
     let answer = engine.query_within(&args.question, args.explain, limits)?;
     let outcome = if answer.rows.is_empty() { Answer::No } else { Answer::Yes };
-    let names = Names { relations: engine.relations()?, lang: common.lang };
+    let (names, language) = (Names::of(&engine, common.lang)?, common.lang.language());
     if common.json {
-        let view = super::json::query(&engine, &answer, args.explain, common.lang.language())?;
+        let view = super::json::query(&engine, &answer, args.explain, language)?;
         say(&view.to_string())?;
         return Ok(outcome);
     }
     if !answer.unknown.is_empty() {
-        let texts: Vec<String> = answer.unknown.iter().map(|text| format!("«{text}»")).collect();
+        let (open, close) = language.pick(("«", "»"), ("“", "”"));
+        let texts: Vec<String> =
+            answer.unknown.iter().map(|text| format!("{open}{text}{close}")).collect();
         let text = common.lang.pick("в фактах такого нет", "no fact holds this");
         super::notes::note(&format!("{}: {text}", texts.join(", ")));
     }
@@ -41,7 +43,7 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
             let mut table = super::text::table();
             table.set_header(&answer.columns);
             for row in &answer.rows {
-                table.add_row(row.iter().map(ToString::to_string));
+                table.add_row(row.iter().map(|value| engine.value_in_words(value, language)));
             }
             lines.push(table.to_string());
         }

@@ -6,7 +6,6 @@ use comfy_table::{CellAlignment, ContentArrangement, Table};
 pub(super) use crate::engine::{counted_in_english as english_size, plan_in_words as plan};
 
 use crate::engine::{Relations, Replanned, RouteAnswer, World, decimal, no_way_in_words};
-use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
 use crate::language::names::english_name;
@@ -67,16 +66,11 @@ pub(super) fn table() -> Table {
 }
 
 /// Facts, one a line: `Чашка-1 НАХОДИТСЯ_СВЕРХУ_НА Стол-1`.
-pub(super) fn facts(rows: &[(String, Vec<Value>)]) -> String {
-    rows.iter().map(|(relation, values)| fact(relation, values)).collect::<Vec<_>>().join("\n")
-}
-
-fn fact(relation: &str, values: &[Value]) -> String {
-    let words: Vec<String> = values.iter().map(ToString::to_string).collect();
-    match &words[..] {
+pub(super) fn fact(relation: &str, values: &[String]) -> String {
+    match values {
         [x, y] => format!("{x}  {relation}  {y}"),
         [x, property, value] => format!("{x}  {relation}  {property} = {value}"),
-        _ => format!("{relation}({})", words.join(", ")),
+        _ => format!("{relation}({})", values.join(", ")),
     }
 }
 

@@ -5,8 +5,8 @@ use super::args::{Common, Lang};
 use super::fault::Failure;
 use super::opened::open;
 use super::{Answer, say};
-use crate::engine::{Relations, RequestError};
-use crate::facts::WhyNot;
+use crate::engine::{Engine, Relations, RequestError};
+use crate::facts::{Value, WhyNot};
 
 /// Runs the command. A fact that is asked about the wrong way round – why, though it does not hold – is answered with
 /// "no" and with what can be said.
@@ -15,8 +15,7 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
         return Err(RequestError::Fact { text: fact.to_owned() }.into());
     };
     let engine = open(common)?;
-    let relations = engine.relations()?;
-    let names = Names { relations, lang: common.lang };
+    let names = Names::of(&engine, common.lang)?;
     let because = engine.why(name, &of)?;
     if common.json {
         say(&super::json::why(&engine, name, &of, common.lang.language())?.to_string())?;
@@ -34,6 +33,7 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
     };
     let of = engine.arguments(&of)?;
     let shown = names.name(name);
+    let of: Vec<String> = of.iter().map(|of| names.value(of)).collect();
     let head = format!("{shown}({})", of.join(", "));
     match nearest {
         WhyNot::Nearest(rule) => {
@@ -84,18 +84,28 @@ fn parts(fact: &str) -> Option<(&str, Vec<&str>)> {
     Some((name, of))
 }
 
-/// Relations by the names of the wanted language.
+/// Relations, and what facts name, as they are called in the wanted language.
 pub(super) struct Names<'a> {
-    pub(super) relations: &'a Relations,
-    pub(super) lang: Lang,
+    engine: &'a Engine,
+    relations: &'a Relations,
+    lang: Lang,
 }
 
-impl Names<'_> {
+impl<'a> Names<'a> {
+    pub(super) fn of(engine: &'a Engine, lang: Lang) -> Result<Self, Failure> {
+        Ok(Self { engine, relations: engine.relations()?, lang })
+    }
+
     fn name(&self, name: &str) -> String {
         self.relations.display_name(name, self.lang.language())
     }
 
-    /// A shown tree with the relations' names in the wanted language.
+    fn value(&self, text: &str) -> String {
+        let value = Value::Symbol(text.into());
+        self.engine.value_in_words(&value, self.lang.language())
+    }
+
+    /// A shown tree with names in the wanted language: of relations, and in quotes of what facts name.
     pub(super) fn translate(&self, text: &str) -> String {
         if self.lang == Lang::Ru {
             return text.to_owned();
@@ -103,10 +113,15 @@ impl Names<'_> {
         let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
         let mut shown = String::new();
         let mut rest = text;
-        while let Some(start) = rest.find(is_of_name) {
+        while let Some(start) = rest.find(|c| is_of_name(c) || c == '"') {
             let (before, word) = rest.split_at(start);
-            let end = word.find(|c| !is_of_name(c)).unwrap_or(word.len());
             shown.push_str(before);
+            if let Some((quoted, after)) = word.strip_prefix('"').and_then(|q| q.split_once('"')) {
+                shown.push_str(&format!("\"{}\"", self.value(quoted)));
+                rest = after;
+                continue;
+            }
+            let end = word.find(|c| !is_of_name(c)).filter(|end| *end > 0).unwrap_or(word.len());
             let (word, after) = word.split_at(end);
             // A relation's name is followed by its tuple.
             shown.push_str(&if after.starts_with('(') { self.name(word) } else { word.to_owned() });

@@ -5,11 +5,14 @@
 //! is stored for all pairs: the building has too many. What the robot knows, and where the Map puts a thing, is listed
 //! for a question that names it.
 
+use std::collections::BTreeSet;
+
 use crate::facts::{AskError, Column, Computed, Limits, Proof, Value};
 use crate::geometry::{Eye, Method};
-use crate::map::Entity;
+use crate::language::names::english_name;
+use crate::map::{Entity, Object};
 use crate::semantics::{Around, OnDemand, Subject, length, on_demand, robot_eye, things_in_view};
-use crate::units::{Deg, Pose, Source};
+use crate::units::{Deg, Gather as _, Language, Pose, Source, name_key};
 
 use super::known::Known;
 use super::{Error, State};
@@ -31,6 +34,17 @@ pub struct QueryAnswer {
 const MOST_PROOFS: usize = 20;
 
 impl State {
+    /// A value of a fact as it is told in a language: by the name that the map gives there to what it names, if it is its
+    /// alone; a question may name it so.
+    #[must_use]
+    pub fn value_in_words(&self, value: &Value, language: Language) -> String {
+        let other = match (value, self.around()) {
+            (Value::Symbol(symbol), Ok(around)) => around.other_name(symbol, language),
+            _ => None,
+        };
+        other.map_or_else(|| value.to_string(), str::to_owned)
+    }
+
     /// Answers `?- НАХОДИТСЯ_СВЕРХУ_НА(X, "Стол-1"), distance_between(X, "Окно-1", D), D < 20000.order D.limit 3`,
     /// with rules of its own before it if it likes (docs/rules.md).
     ///
@@ -68,7 +82,9 @@ impl State {
         let computed: Vec<&dyn Computed> = measured.chain(computed).chain(listed).collect();
         let source = Source::new("?", question);
         let ask = |error: AskError| Error::Query(Box::new(error));
-        let answers = relations.derived().ask_with(&source, &computed, limits).map_err(ask)?;
+        let called = |text: &str| around.first_name(text);
+        let derived = relations.derived();
+        let answers = derived.ask_calling(&source, &computed, &called, limits).map_err(ask)?;
         let most = if with_proofs { answers.rows().len().min(MOST_PROOFS) } else { 0 };
         let mut proofs = Vec::new();
         for n in 0..most {
@@ -84,6 +100,30 @@ impl State {
                 .map(str::to_owned)
                 .collect(),
         })
+    }
+}
+
+impl Known {
+    /// What the facts call the one thing, room, door, place or type that bears a name in either language.
+    fn first_name(&self, name: &str) -> Option<String> {
+        let (world, key) = (self.world(), name_key(name));
+        let entities = world.find(name).into_iter().map(|entity| world.name(entity));
+        let is_called = |object: &&Object| name_key(&object.name_en) == key;
+        let objects = world.objects.values().filter(is_called).map(|object| object.name.as_str());
+        let found: BTreeSet<&str> = entities.chain(objects).gather();
+        found.first().filter(|_| found.len() == 1).map(|name| (*name).to_owned())
+    }
+
+    /// What a text of the facts is called in a language.
+    fn other_name(&self, symbol: &str, language: Language) -> Option<&str> {
+        let (world, subject) = (self.world(), self.relations().ok()?.symbols().subject(symbol)?);
+        let english = match (language, subject) {
+            (Language::English, Subject::Entity(entity)) => english_name(world, entity),
+            (Language::English, Subject::Object(object)) => &world.objects[&object].name_en,
+            _ => "",
+        };
+        // One that says nothing alone is no name of it.
+        Some(english).filter(|name| self.first_name(name).as_deref() == Some(symbol))
     }
 }
 

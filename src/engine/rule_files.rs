@@ -18,7 +18,7 @@ macro_rules! files {
 }
 
 /// Those for planning, which no folder below reads by itself.
-static OF_PLANNING: [(&str, Carried); 14] = files![
+static OF_PLANNING: [(&str, Carried); 15] = files![
     "service-robot.strips",
     "scenarios/another-floor.strips",
     "scenarios/chair-in-the-way.strips",
@@ -33,6 +33,7 @@ static OF_PLANNING: [(&str, Carried); 14] = files![
     "scenarios/rubbish.strips",
     "scenarios/tidy-up.strips",
     "scenarios/two-goals-exclude.strips",
+    "scenarios/walk-to-the-medicine.strips",
 ];
 
 /// Every rule file by its path within a directory of rules, and its text.

@@ -34,7 +34,7 @@ use super::kept::Kept;
 use super::limits::{Limits, Watch};
 use super::program::{Clause, Program};
 use super::proof::{Explainer, Proof};
-use super::question::Question;
+use super::question::{FirstName, Question};
 use super::relations::{Column, RelationId};
 use super::rows::{Stored, heap};
 use super::strata::reads;
@@ -100,10 +100,24 @@ impl Derived {
         computed: &[&'a dyn Computed],
         limits: Limits,
     ) -> Result<Answers<'a>, AskError> {
+        self.ask_calling(question, computed, &|_| None, limits)
+    }
+
+    /// As [`Self::ask_with`], where a text in the question that no fact holds may be what something else is called.
+    ///
+    /// # Errors
+    /// [`AskError`].
+    pub fn ask_calling<'a>(
+        &'a self,
+        question: &Source,
+        computed: &[&'a dyn Computed],
+        called: FirstName<'_>,
+        limits: Limits,
+    ) -> Result<Answers<'a>, AskError> {
         let kept = Held::Lent(&self.kept);
         let is_stored = vec![true; self.program.relations.len()];
         let told = (kept, self.given.clone(), is_stored);
-        let mut answers = Answers::new(&self.program, told, question, computed, limits)?;
+        let mut answers = Answers::new(&self.program, told, (question, called), computed, limits)?;
         answers.answer()?;
         Ok(answers)
     }
@@ -140,7 +154,7 @@ impl Program {
             let is_stored = vec![true; self.relations.len()];
             let kept = Held::Shared(Arc::new(derived.kept));
             let told = (kept, derived.given, is_stored);
-            let mut answers = Answers::new(self, told, question, computed, limits)?;
+            let mut answers = Answers::new(self, told, (question, &|_| None), computed, limits)?;
             answers.answer()?;
             return Ok(answers);
         }
@@ -153,7 +167,7 @@ impl Program {
         self.clauses.iter().for_each(|clause| is_stored[clause.head.index()] = false);
         let given = all.iter().map(|of| Some(kept.rows(*of).boxed_clone())).collect();
         let told = (Held::Shared(kept), given, is_stored);
-        let mut answers = Answers::new(self, told, question, computed, limits)?;
+        let mut answers = Answers::new(self, told, (question, &|_| None), computed, limits)?;
         answers.answer()?;
         Ok(answers)
     }
@@ -233,7 +247,7 @@ impl<'a> Answers<'a> {
     fn new(
         program: &Program,
         (kept, given, is_stored): Told<'a>,
-        source: &Source,
+        (source, called): (&Source, FirstName<'_>),
         computed: &[&'a dyn Computed],
         limits: Limits,
     ) -> Result<Self, AskError> {
@@ -252,7 +266,7 @@ impl<'a> Answers<'a> {
         };
         let others: Vec<&'a dyn Computed> = others.iter().filter(named).copied().collect();
         let more: Vec<&Source> = others.iter().map(|by| by.declaration()).collect();
-        let question = program.question(source, &more, &mut words)?;
+        let question = program.question(source, &more, called, &mut words)?;
         let limits = limits.within(question.program.limits);
         let unknown = words.symbols().skip(kept.words.symbols().count()).cloned().collect();
         let relation = |n: usize| RelationId((question.known + n) as u32);

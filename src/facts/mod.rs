@@ -159,6 +159,7 @@ pub use live::Live;
 pub use outline::{Mark, Meaning, outline};
 pub use program::{Kind, Program};
 pub use proof::{Because, Explainer, FactText, Premise, Proof, ProofStep, RuleInstance};
+pub use question::FirstName;
 pub use relations::{Column, Parameters, RelationId, RelationInfo};
 pub use syntax::{Aggregation, Comparison};
 pub use trace::{Join, RuleTrace};

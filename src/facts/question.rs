@@ -36,6 +36,9 @@ use super::syntax::{self, Item, Rule, Span};
 use super::word::Words;
 use crate::units::{Source, bilingual};
 
+/// The text that facts hold for what a question calls something.
+pub type FirstName<'c> = &'c dyn Fn(&str) -> Option<String>;
+
 /// A question about a program, checked.
 #[derive(Debug, Clone)]
 pub(super) struct Question {
@@ -58,6 +61,7 @@ impl Program {
         &self,
         source: &Source,
         more: &[&Source],
+        called: FirstName<'_>,
         words: &mut Words,
     ) -> Result<Question, Faults> {
         let mut sources: Vec<Source> = self.sources.to_vec();
@@ -73,7 +77,8 @@ impl Program {
             faults.all.extend(here.into_iter().map(|fault| (file, fault)));
         }
         let mut here = Vec::new();
-        let asked = read(source, file, &mut items, &mut here);
+        let first = |text: &str| called(text).filter(|_| words.find_symbol(text).is_none());
+        let asked = read(source, file, &first, &mut items, &mut here);
         faults.all.extend(here.into_iter().map(|fault| (file, fault)));
         let question =
             asked.and_then(|asked| self.extended(&sources, &items, &asked, words, &mut faults));
@@ -282,11 +287,19 @@ fn order(
 fn read(
     source: &Source,
     file: u32,
+    called: FirstName<'_>,
     items: &mut Vec<Item>,
     faults: &mut Vec<RuleError>,
 ) -> Option<syntax::Question> {
     let text = source.text();
-    let words = super::preprocess::expand(lex::words(text, file, faults), source, file, faults);
+    let mut words = super::preprocess::expand(lex::words(text, file, faults), source, file, faults);
+    for token in &mut words {
+        if let Word::Text(text) = &mut token.word
+            && let Some(first) = called(text)
+        {
+            *text = first;
+        }
+    }
     let at = words.iter().position(|token| token.word == Word::Sign("?-"));
     let (before, asked) = words.split_at(at.unwrap_or(0));
     items.extend(items_of(before, text.len(), file, faults));

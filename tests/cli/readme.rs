@@ -35,8 +35,8 @@ fn the_tour_is_as_it_is_shown() {
     assert!(shown.len() > 7);
     for (words, expected) in shown {
         let args: Vec<&str> = words.iter().map(String::as_str).collect();
-        let run = place.run(&args);
-        let found = format!("{}{}", run.out, run.err);
+        let run = place.command(&args).env("ORTHO_LANG", "en").output().unwrap();
+        let found = [run.stdout, run.stderr].map(|told| String::from_utf8(told).unwrap()).concat();
         let lines =
             |text: &str| text.trim().lines().map(str::trim_end).collect::<Vec<_>>().join("\n");
         assert_eq!(lines(&found), lines(&expected), "ortho {words:?}");

@@ -573,3 +573,27 @@ fn a_tuple_tells_what_its_rules_ask_of_others() {
     assert_eq!(told(["gate", "b"]), gate);
     assert!(program.calls("near", &[Value::Number(1)], &of).is_err());
 }
+
+#[test]
+fn a_text_that_no_fact_holds_may_be_what_something_else_is_called() {
+    let rules = Source::new(
+        "on.dl",
+        r#".decl on(a: symbol, b: symbol) .output on on("чашка", "стол"). on("cup", "пол")."#,
+    );
+    let program = Program::parse(&rules).unwrap();
+    let derived = program.evaluate(&program.database()).unwrap();
+    let called = |text: &str| {
+        let known = [("table", "стол"), ("cup", "чашка")];
+        known.iter().find(|(other, _)| *other == text).map(|(_, name)| (*name).to_owned())
+    };
+    let rows = |question: &str| {
+        let source = Source::new("?", question);
+        let answers = derived.ask_calling(&source, &[], &called, Limits::default()).unwrap();
+        let unknown: Vec<String> = answers.unknown().map(str::to_owned).collect();
+        (answers.rows().to_vec(), unknown)
+    };
+    assert_eq!(rows(r#"?- on(X, "table")"#), (vec![vec!["чашка".into()]], vec![]));
+    // What some fact holds is that.
+    assert_eq!(rows(r#"?- on("cup", X)"#), (vec![vec!["пол".into()]], vec![]));
+    assert_eq!(rows(r#"?- on(X, "chair")"#), (vec![], vec!["chair".to_owned()]));
+}
