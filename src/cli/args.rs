@@ -44,16 +44,16 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// The whole way once: import the rb2 map, derive, plan "Принеси лекарство", drive, report, draw
+    /// The whole way once: import the rb2 map, derive, plan "Bring the medicine", drive, report, draw
     Demo {
         /// Store directory to use and keep; a temporary one when absent
         dir: Option<PathBuf>,
         /// Map file
         #[arg(long, value_name = "FILE")]
         map: Option<PathBuf>,
-        /// What the robot is told to do
-        #[arg(long, default_value = "Принеси лекарство", value_name = "TEXT")]
-        task: String,
+        /// What the robot is told to do; to bring the medicine when left out
+        #[arg(long, value_name = "TEXT")]
+        task: Option<String>,
         /// Directory for the drawing
         #[arg(long, default_value = "demo", value_name = "DIR")]
         out: PathBuf,
@@ -86,7 +86,7 @@ pub(super) enum Command {
         #[arg(long, value_name = "NAME")]
         of: Option<String>,
     },
-    /// Why a relation holds, down to what was measured: ortho why "ON_TOP_OF(Чашка-1, Стол-1)"
+    /// Why a relation holds, down to what was measured: ortho why "ON_TOP_OF(Cup 1, Table 1)"
     Why {
         /// RELATION(name, name)
         fact: String,
@@ -94,7 +94,7 @@ pub(super) enum Command {
         #[arg(long)]
         not: bool,
     },
-    /// Ask in the rules' language: ortho query '?- ON_TOP_OF(X, Y), CONTAINS("Комната-А", Y)' (docs/rules.md)
+    /// Ask in the rules' language: ortho query '?- ON_TOP_OF(X, Y), CONTAINS("Room V", Y)' (docs/rules.md)
     Query(QueryArgs),
     /// Plan a scenario of a rule file, or a PDDL problem; or the facts that the map gives to planning
     Plan(PlanArgs),
@@ -109,11 +109,11 @@ pub(super) enum Command {
         #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "export")]
         format: Vec<PathBuf>,
     },
-    /// Carry out a task given in words, or a scenario, in the simulator or with a robot: ortho do "Принеси лекарство"
+    /// Carry out a task given in words, or a scenario, in the simulator or with a robot: ortho do "Bring the medicine"
     Do(DoArgs),
     /// Offer the simulated robot, in the world of a map file, by the vehicle protocol (docs/vehicle.md)
     Simulate(SimulateArgs),
-    /// Answer a question in words: ortho ask "Где лекарство?"
+    /// Answer a question in words: ortho ask "Where is the medicine?"
     Ask(AskArgs),
     /// Check a map file and draw it again whenever it, or a rule file, has changed
     Watch {
@@ -132,7 +132,7 @@ pub(super) enum Command {
     Replay(ReplayArgs),
     /// Rule files under an editor: the Language Server Protocol over standard streams, for .dl and .strips
     LanguageServer,
-    /// All forms of a name, Russian and English, and where they come from: ortho words "Письменный стол"
+    /// All forms of a name, Russian and English, and where they come from: ortho words "Desk"
     Words { name: String },
     /// The shortest drivable way between two places, rooms, doors or things
     Route {

@@ -27,9 +27,10 @@ pub(super) fn run(
     common: &Common,
     dir: Option<&Path>,
     map: Option<&Path>,
-    task: &str,
+    task: Option<&str>,
     out: &Path,
 ) -> Result<Answer, Failure> {
+    let task = task.unwrap_or(common.lang.pick("Принеси лекарство", "Bring the medicine"));
     let scratch = Scratch::new().map_err(|e| Failure::file(&std::env::temp_dir(), &e))?;
     let map = match map {
         Some(path) => path.to_owned(),

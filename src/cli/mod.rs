@@ -99,7 +99,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
     let common = &arguments.common;
     match &arguments.command {
         Command::Demo { dir, map, task, out } => {
-            demo::run(common, dir.as_deref(), map.as_deref(), task, out)
+            demo::run(common, dir.as_deref(), map.as_deref(), task.as_deref(), out)
         }
         Command::Import(args) => import::run(common, args),
         Command::Export(args) => export::run(common, args),

@@ -91,7 +91,7 @@ pub(super) enum Step {
         #[command(flatten)]
         kind: KindArg,
     },
-    /// Set a property: set "Стул-1" ЦВЕТ Красный
+    /// Set a property: set "Chair 1" colour red
     Set {
         name: String,
         property: String,
@@ -145,7 +145,7 @@ pub(super) enum Step {
         /// Permeability of the roof
         #[arg(long, value_name = "WORD")]
         roof: Option<String>,
-        /// A side that is not a wall: F=conditional, or F=conditional,Дверь with its type
+        /// A side that is not a wall: F=conditional, or F=conditional,DOOR with its type
         #[arg(long, value_name = "ID=WORD[,TYPE]")]
         side: Vec<String>,
         #[command(flatten)]
@@ -342,7 +342,7 @@ pub(super) struct Names {
     pub(super) name_en: Option<String>,
     #[arg(long = "type", value_name = "NAME")]
     pub(super) kind_of: Option<String>,
-    /// A property: ЦВЕТ=Красный
+    /// A property: colour=red
     #[arg(long = "property", value_name = "NAME=VALUE")]
     pub(super) properties: Vec<String>,
 }
