@@ -1,5 +1,5 @@
 // The page put together: what is heard from the server, what the operator does, and what is drawn anew for it.
-import { S, L, N, I, $, el, api, ask, announce, length, names, may, reasons, Refused } from './base.js';
+import { S, L, N, I, $, el, api, ask, announce, length, names, may, reasons, Gone, Refused } from './base.js';
 import { connect, refresh } from './link.js';
 import { beyond, centre, fit, named, paint, show, under, view, zoom } from './map.js';
 import { note, reason, renderLog, renderTalk, send } from './talk.js';
@@ -416,5 +416,7 @@ beyond.reveal = async (name) => {
 renderTalk(talkers); render();
 new ResizeObserver(() => { if (S.drawing && !S.edit) fit(); else paint(); }).observe($('.canvas'));
 document.addEventListener('visibilitychange', () => paint());
+// Who waits for nothing is told of the lost line by the page as a whole.
+addEventListener('unhandledrejection', (event) => { if (event.reason instanceof Gone) event.preventDefault(); });
 setInterval(() => { if (S.lease?.session === S.state?.session && S.linked === 'yes') api('/api/lease', { do: 'keep' }).then((lease) => { S.lease = lease; }).catch(() => {}); }, 40000);
 connect(heard).then(everything).catch((error) => { S.linked = error.status === 401 ? 'stranger' : 'no'; render(); if (S.linked === 'no') setTimeout(() => location.reload(), 3000); });

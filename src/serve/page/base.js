@@ -93,10 +93,16 @@ export class Refused extends Error {
   }
 }
 
+/** No answer came: the line is down, which the page tells of itself. */
+export class Gone extends Error {}
+
 export async function api(path, body) {
   const request = body === undefined ? {} : { method: 'POST', headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
-  const answer = await fetch(path, { ...request, credentials: 'same-origin' });
-  const text = await answer.text();
+  let answer, text;
+  try {
+    answer = await fetch(path, { ...request, credentials: 'same-origin' });
+    text = await answer.text();
+  } catch (error) { throw new Gone(String(error)); }
   let value = {};
   try { value = JSON.parse(text); } catch { value = { message: text }; }
   if (!answer.ok) throw new Refused(answer.status, value);
