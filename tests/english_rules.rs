@@ -175,7 +175,7 @@ fn faults(text: &str) -> String {
         Ok(scenario) => scenario,
         Err(found) => return told(found),
     };
-    match rb2().supplemented(scenario.clone()).map(|scenario| scenario.ground()) {
+    match rb2().supplemented(scenario).map(|scenario| scenario.ground()) {
         Ok(Ok(_)) => String::new(),
         Ok(Err(found)) | Err(Error::Rules(found)) => told(found),
         Err(other) => panic!("{other:?}"),
@@ -192,11 +192,10 @@ fn slips_in_second_names_are_told_with_them() {
     assert_eq!(of("Facts: DOOR-OF(Door-VZ, Room-V)"), "");
     expect_test::expect![[r#"
         rules:1:8: unknown predicate “DOOR-OFF” – perhaps “DOOR-OF”?
-        rules:1:58: “DOOR-OF” takes 2 arguments, not 1 – written: DOOR-OF_(door, room)"#]].assert_eq(&of(
-        "Facts: DOOR-OFF(Door-VZ, Room-V) DOOR-OF(Door-VZ, Rom-V) DOOR-OF(Door-VZ)",
-    ));
+        rules:1:58: “DOOR-OF” takes 2 arguments, not 1 – written: DOOR-OF_(door, room)"#]]
+    .assert_eq(&of("Facts: DOOR-OFF(Door-VZ, Room-V) DOOR-OF(Door-VZ, Rom-V) DOOR-OF(Door-VZ)"));
     expect_test::expect!["rules:1:20: unknown type “thng” – perhaps “thing”?"]
-    .assert_eq(&of("Objects: Trolley — thng"));
+        .assert_eq(&of("Objects: Trolley — thng"));
 }
 
 #[test]

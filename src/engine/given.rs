@@ -3,13 +3,15 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::World;
+use crate::language::names::english_name;
+use crate::language::report::Named;
 use crate::robot::facts_of_map;
-use crate::semantics::planning::InitialFact;
-use crate::strips::{Domain, in_quotes};
+use crate::semantics::planning::{InitialFact, PLACE_BESIDE};
+use crate::strips::{Domain, Problem, in_quotes};
 use crate::units::{Gather as _, Language, name_key};
 
-use super::plan::name_in_english_rules;
+use super::known::Known;
+use super::task::OPERATOR;
 use super::{Error, State};
 
 impl State {
@@ -46,9 +48,47 @@ impl State {
         language: Language,
     ) -> Result<String, Error> {
         let facts = self.facts_given(predicate)?;
-        let names = Names::of(&facts, self.world()?, &self.rules.robot, language);
+        let names = Names::of(&facts, self.surveyed()?, &self.rules.robot, language);
         Ok(in_rule_file(&facts, &names))
     }
+}
+
+impl Known {
+    /// Lets a problem speak of what the facts speak of by English names, too.
+    pub(super) fn call_in_english(&self, problem: &mut Problem, facts: &[InitialFact]) {
+        let english = |name| (name, self.name_in_english_rules(name));
+        let names: Vec<(&str, String)> = names_in(facts).into_iter().map(english).collect();
+        problem.call(names.iter().map(|(name, other)| (*name, other.as_str())));
+    }
+
+    /// What an English rule file calls an object of the facts: by its English name, where the map gives one.
+    fn name_in_english_rules(&self, name: &str) -> String {
+        let world = self.world();
+        let called = |name: &str| {
+            let bearer = self.names().find(world, name).first().copied();
+            match bearer {
+                Some(entity) => english_name(world, entity).to_owned(),
+                None if world.domain.lifts.iter().any(|(lift, _)| lift == name) => {
+                    Named::plain(name).english_name().to_owned()
+                }
+                None => String::new(),
+            }
+        };
+        let english = match name.strip_prefix(PLACE_BESIDE) {
+            _ if name == OPERATOR => "Operator".to_owned(),
+            Some(thing) => match called(thing) {
+                thing if thing.is_empty() => thing,
+                thing => format!("Place by {thing}"),
+            },
+            None => called(name),
+        };
+        if english.is_empty() { name.to_owned() } else { english }
+    }
+}
+
+/// What facts are of, each once.
+fn names_in(facts: &[InitialFact]) -> BTreeSet<&str> {
+    facts.iter().flat_map(|fact| &fact.arguments).map(|a| a.name.as_str()).gather()
 }
 
 /// What a rule file of a language calls what facts are of.
@@ -60,16 +100,14 @@ struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    fn of(facts: &'a [InitialFact], world: &World, domain: &'a Domain, language: Language) -> Self {
-        let names: BTreeSet<&str> =
-            facts.iter().flat_map(|fact| &fact.arguments).map(|a| a.name.as_str()).gather();
+    fn of(facts: &'a [InitialFact], known: &Known, domain: &'a Domain, language: Language) -> Self {
         // In English hyphens stand for blanks, as they do in the papers' names.
         let other = |name: &str| match language {
             Language::Russian => name.to_owned(),
-            Language::English => name_in_english_rules(world, name).replace(' ', "-"),
+            Language::English => known.name_in_english_rules(name).replace(' ', "-"),
         };
         let mut objects: BTreeMap<&str, String> =
-            names.into_iter().map(|name| (name, other(name))).collect();
+            names_in(facts).into_iter().map(|name| (name, other(name))).collect();
         let mut bearers: BTreeMap<String, usize> = BTreeMap::new();
         let keys = objects
             .iter()

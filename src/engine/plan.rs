@@ -1,21 +1,18 @@
 //! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
 
-use std::collections::BTreeSet;
-
 use crate::graphplan::Limits;
 use crate::map::{Entity, World};
 use crate::robot::{
     Replanned, Solved, Surprise, Terrain, Wanted, facts_of_map, solve_on, solve_quickest,
     solve_without, state,
 };
-use crate::semantics::planning::InitialFact;
 use crate::semantics::predicate;
 use crate::strips::{
     Domain, PlanText, Problem, Replayed, RuleError, RuleFault, Scenario, without_price,
 };
-use crate::units::{Bilingual, Gather as _, Language, ReplicaId, name_key};
+use crate::units::{Bilingual, ReplicaId, name_key};
 
-use super::{Error, RequestError, State, name_in, surprise_in_words};
+use super::{Error, RequestError, State, surprise_in_words};
 
 /// The types of things that the Map alone makes known.
 const OF_MAP: [&str; 2] = ["помещение", "дверь"];
@@ -196,25 +193,10 @@ impl State {
             for fact in &facts {
                 state(&mut scenario.problem, fact);
             }
-            call_in_english(&mut scenario.problem, world, &facts);
+            self.surveyed()?.call_in_english(&mut scenario.problem, &facts);
         }
         Ok(())
     }
-}
-
-/// Lets a problem speak of what the facts speak of by its English names, too.
-pub(super) fn call_in_english(problem: &mut Problem, world: &World, facts: &[InitialFact]) {
-    let names: BTreeSet<&str> =
-        facts.iter().flat_map(|fact| &fact.arguments).map(|a| a.name.as_str()).gather();
-    let english: Vec<(&str, String)> =
-        names.iter().map(|&name| (name, name_in_english_rules(world, name))).collect();
-    problem.call(english.iter().map(|(name, other)| (*name, other.as_str())));
-}
-
-/// What an English rule file calls an object: its English name, without an article.
-pub(super) fn name_in_english_rules(world: &World, name: &str) -> String {
-    let told = name_in(world, name, Language::English);
-    told.strip_prefix("the ").map(str::to_owned).unwrap_or(told)
 }
 
 /// What the floor refuses, in words.

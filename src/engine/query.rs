@@ -107,7 +107,7 @@ impl Known {
     /// What the facts call the one thing, room, door, place or type that bears a name in either language.
     fn first_name(&self, name: &str) -> Option<String> {
         let (world, key) = (self.world(), name_key(name));
-        let entities = world.find(name).into_iter().map(|entity| world.name(entity));
+        let entities = self.names().find(world, name).into_iter().map(|entity| world.name(entity));
         let is_called = |object: &&Object| name_key(&object.name_en) == key;
         let objects = world.objects.values().filter(is_called).map(|object| object.name.as_str());
         let found: BTreeSet<&str> = entities.chain(objects).gather();

@@ -12,7 +12,6 @@ use crate::semantics::predicate;
 use crate::strips::{RuleError, RuleFault, RuleFaults, Scenario};
 use crate::units::{Bilingual, ReplicaId, Stop, name_key};
 
-use super::plan::call_in_english;
 use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
 
@@ -83,7 +82,7 @@ impl State {
         keep_homes(scenario, &mut belief);
         let believed = belief.facts(relations);
         let mut scenario = scenario.clone();
-        call_in_english(&mut scenario.problem, self.world()?, &believed);
+        self.surveyed()?.call_in_english(&mut scenario.problem, &believed);
         let known = Known::of(believed);
         let mut faults: Vec<RuleFault> = scenario
             .problem
