@@ -530,3 +530,27 @@ fn it_in_an_order_is_none_of_a_list_that_was_told_before() {
     }
     assert!(told > 5, "{told}");
 }
+
+/// «Принеси одну из них сюда», "bring one of them here": of several of one kind one is meant, whatever else the order says.
+#[test]
+fn one_of_them_is_one() {
+    let Some(engine) = engine(HOUSE) else { return };
+    let mut told = 0;
+    for (russian, _, english) in kinds(&engine).into_keys() {
+        for (asked, orders) in [
+            (format!("Где {russian}?"), ["Принеси одну из них", "Принеси одну из них сюда"]),
+            (format!("Where are the {english}?"), ["Bring one of them", "Bring one of them here"]),
+        ] {
+            for order in orders {
+                let mut memory = Memory::default();
+                if ask(&engine, &asked, &mut memory).is_none_or(|a| a.things.len() < 2) {
+                    continue;
+                }
+                let Ok(commands) = engine.understand_in(order, &mut memory) else { continue };
+                assert_eq!(commands.len(), 1, "{asked} {order}: {commands:?}");
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 4, "{told}");
+}

@@ -110,6 +110,8 @@ pub(super) enum Mark {
     Or,
     Than,
     All,
+    /// «каждый», "every": of a kind, never the whole of one thing, as «вся» is.
+    Each,
     /// «другой», "other"
     Other,
     /// «кроме», "except"

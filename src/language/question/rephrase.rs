@@ -278,7 +278,9 @@ fn up_or_down(words: &Words<'_>) -> Option<String> {
 fn one_of(words: &Words<'_>) -> Option<String> {
     const ONE: [&str; 6] = ["один", "одна", "одно", "одну", "любую", "любой"];
     let one = (0..words.keys.len()).find(|n| words.is(*n, &ONE) && words.is(*n + 1, &["из"]))?;
-    (one + 2 < words.keys.len()).then(|| {
+    // «одну из них»: of those that were told.
+    let named = one + 2 < words.keys.len() && !words.is(one + 2, &["них", "этих", "тех"]);
+    named.then(|| {
         let said = &words.text[words.at[one].clone()];
         words.replaced(vec![(one..one + 2, said.to_owned())])
     })

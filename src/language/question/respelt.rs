@@ -97,7 +97,10 @@ fn precedes_noun(key: &str) -> bool {
     let mark = vocabulary::longest(&[key.to_owned()]).map(|(_, mark)| mark);
     WHOSE.contains(&key)
         || key == "many"
-        || matches!(mark, Some(Mark::The | Mark::A | Mark::All | Mark::Which | Mark::HowMany))
+        || matches!(
+            mark,
+            Some(Mark::The | Mark::A | Mark::All | Mark::Each | Mark::Which | Mark::HowMany)
+        )
 }
 
 #[cfg(test)]

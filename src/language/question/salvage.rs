@@ -237,6 +237,7 @@ impl Asker<'_> {
                     | Mark::Cannot
                     | Mark::Must
                     | Mark::All
+                    | Mark::Each
                     | Mark::Move
                     | Mark::What
                     | Mark::Who

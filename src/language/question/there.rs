@@ -47,6 +47,13 @@ impl Knowledge<'_> {
         support.or_else(|| self.area_of(thing).map(|id| Thing::Entity(Entity::Area(id))))
     }
 
+    /// «Где тостер? Отнеси туда яблоко»: whither something is taken "there"; what bears nothing stands where it stands.
+    pub(super) fn bearer_there(&self, thing: Thing) -> Thing {
+        let bears = self.opening(thing).is_some()
+            || [Rel::On, Rel::In].iter().any(|rel| self.may_be_anchor(*rel, thing));
+        self.place_of(thing).filter(|_| !bears).unwrap_or(thing)
+    }
+
     /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
     fn place_spoken_of(&self) -> Option<Thing> {
         // "I put the bottle in the bathroom, is it there?"

@@ -123,8 +123,8 @@ impl Asker<'_> {
         }
         for item in items {
             let (phrases, is_place) = match item {
-                Item::Mark(Mark::All) if of_me => (Vec::new(), false),
-                Item::Mark(Mark::Other | Mark::All | Mark::Detail(_)) => return None,
+                Item::Mark(Mark::All | Mark::Each) if of_me => (Vec::new(), false),
+                Item::Mark(Mark::Other | Mark::All | Mark::Each | Mark::Detail(_)) => return None,
                 Item::Noun(phrase) => (vec![phrase], false),
                 Item::Place { nouns, .. } => (nouns, true),
                 _ => (Vec::new(), false),

@@ -79,6 +79,7 @@ const MARKS: &[Mark] = &[
     Mark::ThanTo,
     Mark::Than,
     Mark::All,
+    Mark::Each,
     Mark::Except,
     Mark::Other,
     Mark::Link(Rel::In),

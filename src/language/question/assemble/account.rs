@@ -338,7 +338,9 @@ impl Frame<'_, '_> {
                 self.has(Mark::Have) && noun.head.things.is_some() && noun.restrictions.is_empty()
             }
             Query::Holds { subject, claims, .. } => {
-                let says = self.has(Mark::Be) || self.has(Mark::Exists) || self.has(Mark::All);
+                let says = self.has(Mark::Be)
+                    || self.has(Mark::Exists)
+                    || [Mark::All, Mark::Each].iter().any(|m| self.has(*m));
                 points(subject) && claims.iter().all(placed) && !says
             }
             _ => false,

@@ -296,7 +296,7 @@ impl<'s, 't> Frame<'s, 't> {
             frame.nouns.push(Subject { noun, at: items.len(), negated: false, nominative: true });
         }
         // «Вся ли мебель деревянная?»: the small word stands between.
-        let all = frame.has(Mark::All);
+        let all = frame.has(Mark::All) || frame.has(Mark::Each);
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
             first.noun.all = true;
         }

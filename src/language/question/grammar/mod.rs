@@ -358,7 +358,7 @@ impl<'t> Sentence<'t> {
 
     fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
         let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
-        let (rest, mark) = match self.mark(input, |m| m == Mark::All) {
+        let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
             Err(_) => self.mark(input, is_person)?,
             // "all of them"; "Are there pillows on both?"
             Ok((after, _)) => match self.mark(after, |m| matches!(m, Mark::Pronoun(_))) {

@@ -12,7 +12,6 @@ pub(super) enum Modifier {
     The,
     A,
     All,
-    /// «каждый», "every": of a kind, never the whole of one thing, as «вся» is.
     Each,
     Other,
     Same,
@@ -39,10 +38,8 @@ impl Sentence<'_> {
             {
                 Modifier::A
             }
-            Tok::Mark(Mark::All) => match self.keys.get(first.from as usize) {
-                Some(key) if is_each(key) => Modifier::Each,
-                _ => Modifier::All,
-            },
+            Tok::Mark(Mark::All) => Modifier::All,
+            Tok::Mark(Mark::Each) => Modifier::Each,
             Tok::Mark(Mark::Other) => Modifier::Other,
             Tok::Mark(Mark::Same) => Modifier::Same,
             Tok::Mark(Mark::Best(extreme)) => match self.nearest_to(extreme, rest) {
@@ -133,9 +130,4 @@ impl Sentence<'_> {
         };
         Some((extreme, rest))
     }
-}
-
-/// «каждый», "every", where «весь» may be the whole of one.
-fn is_each(key: &str) -> bool {
-    matches!(key, "every" | "each") || key.starts_with("кажд") || key.starts_with("люб")
 }

@@ -43,7 +43,7 @@ impl Sentence<'_> {
             let before = at.checked_sub(1).map(|before| self.tokens[before].kind);
             let tells = matches!(
                 before,
-                Some(Tok::Noun(_) | Tok::Mark(Mark::All | Mark::Anything | Mark::One))
+                Some(Tok::Noun(_) | Tok::Mark(Mark::All | Mark::Each | Mark::Anything | Mark::One))
             );
             // "Which room did that end up in?", but "that table", "is it true that the …"
             let ends = !matches!(
@@ -61,6 +61,7 @@ impl Sentence<'_> {
                                 | Mark::The
                                 | Mark::A
                                 | Mark::All
+                                | Mark::Each
                                 | Mark::Same
                                 | Mark::Best(_)
                                 | Mark::More(_)

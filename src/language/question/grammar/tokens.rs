@@ -125,7 +125,13 @@ impl<'t> Sentence<'t> {
         let article = matches!(
             before,
             Some(Tok::Mark(
-                Mark::The | Mark::A | Mark::Which | Mark::All | Mark::Same | Mark::HowMany
+                Mark::The
+                    | Mark::A
+                    | Mark::Which
+                    | Mark::All
+                    | Mark::Each
+                    | Mark::Same
+                    | Mark::HowMany
             ))
         );
         let noun_wins = named == longest
@@ -252,7 +258,7 @@ impl<'t> Sentence<'t> {
             let (before, token) = (self.tokens[n - 1].kind, self.tokens[n]);
             let next = self.tokens.get(n + 1).map(|t| t.kind);
             self.keys[token.from as usize] == "ли"
-                && matches!(before, Tok::Mark(Mark::All | Mark::Link(_) | Mark::Same))
+                && matches!(before, Tok::Mark(Mark::All | Mark::Each | Mark::Link(_) | Mark::Same))
                 && matches!(next, Some(Tok::Noun(_) | Tok::Value(_)))
                 && n >= 2
                 && matches!(self.tokens[n - 2].kind, Tok::Mark(Mark::Link(_)))
@@ -512,6 +518,7 @@ impl<'t> Sentence<'t> {
                             | Mark::What
                             | Mark::HowMany
                             | Mark::All
+                            | Mark::Each
                             | Mark::Same
                             | Mark::Best(_)
                     )

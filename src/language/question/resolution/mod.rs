@@ -25,7 +25,7 @@ use super::mark::{Mark, Pronoun};
 use super::memory::{Exchange, Ordered, Waiting};
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::uses;
-use super::{Asker, Doubt, Memory, Misread, Unanswered};
+use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::units::{AreaId, InOrder as _};
@@ -96,7 +96,10 @@ impl Asker<'_> {
         }
         let said = word_keys(&gathered);
         let text = self.with_kind(self.plain(&gathered), memory);
-        let text = self.with_one_of_those(text, memory);
+        let text = match self.with_one_of_those(text.clone(), memory) {
+            Ok(text) => text,
+            Err((doubt, at)) => return Err(self.asked_back(doubt, text, at, language, memory)),
+        };
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let text = self.with_activity(text, language).map_err(misread)?;
@@ -156,15 +159,24 @@ impl Asker<'_> {
                 let last = self.spoken_of(&resolved, memory);
                 Ok(Resolved { text: resolved, meant, last })
             }
-            Err((doubt, at)) => {
-                if let Doubt::Ambiguous { candidates, .. } = &doubt {
-                    let candidates = candidates.clone();
-                    memory.waiting = Some(Waiting { text, at, candidates, language });
-                }
-                let unanswered: Unanswered = self.knowledge(language, memory).unanswered(doubt);
-                Err(Misread(Box::new(unanswered)))
-            }
+            Err((doubt, at)) => Err(self.asked_back(doubt, text, at, language, memory)),
         }
+    }
+
+    /// What is said where an order is not understood; one that means several things waits for the reply.
+    fn asked_back(
+        &self,
+        doubt: Doubt,
+        text: String,
+        at: Range<usize>,
+        language: crate::words::Language,
+        memory: &mut Memory,
+    ) -> Misread {
+        if let Doubt::Ambiguous { candidates, .. } = &doubt {
+            let candidates = candidates.clone();
+            memory.waiting = Some(Waiting { text, at, candidates, language });
+        }
+        Misread(Box::new(self.knowledge(language, memory).unanswered(doubt)))
     }
 
     /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её», "What is next to the mug? – A plate. – Bring it": which of
@@ -448,7 +460,9 @@ impl Resolver<'_, '_> {
                 if there.is_some() {
                     edits.push(Edit::deletion(&self.bytes(&phrase.words)));
                 } else if goal.is_none() && matches!(sort, Sort::Go | Sort::Put | Sort::Carry) {
-                    edits.extend(spoken_of.map(|thing| self.to_there(thing, phrase)));
+                    let borne = |thing| self.knowledge.bearer_there(thing);
+                    let place = if sort == Sort::Go { spoken_of } else { spoken_of.map(borne) };
+                    edits.extend(place.map(|thing| self.to_there(thing, phrase)));
                 }
                 continue;
             }

@@ -1,13 +1,15 @@
 //! Orders without a verb, «К холодильнику!», "The medicine, please", and orders that only amend the one before:
 //! «Нет, в спальню», "not that one, the red one", «а теперь на кухню».
 
+use std::ops::Range;
+
 use super::Resolver;
 use crate::command::{self, Sort};
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
 use crate::question::memory::Ordered;
 use crate::question::vocabulary;
-use crate::question::{Asker, Memory, Thing};
+use crate::question::{Asker, Doubt, Memory, Thing};
 use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
 
 /// What is said before an amendment.
@@ -291,49 +293,61 @@ impl Asker<'_> {
         })
     }
 
-    /// «Есть ли яблоки в спальне? – Яблоко-1 и Яблоко-2. – Принеси одно»: the nearest of those that were told.
-    pub(super) fn with_one_of_those(&self, mut text: String, memory: &Memory) -> String {
+    /// «Есть ли яблоки в спальне? – Яблоко-1 и Яблоко-2. – Принеси одно», "put one of them on the sofa": the nearest of those
+    /// that were told.
+    ///
+    /// # Errors
+    /// "One of them" of several kinds, or where nothing was told that this can be done to.
+    pub(super) fn with_one_of_those(
+        &self,
+        mut text: String,
+        memory: &Memory,
+    ) -> Result<String, (Doubt, Range<usize>)> {
         const ONE: [&str; 7] = ["один", "одну", "одно", "одного", "одной", "one", "any"];
-        const SMALL: [&str; 11] = [
-            "me",
-            "мне",
-            "please",
-            "пожалуйста",
-            "of",
-            "из",
-            "them",
-            "those",
-            "these",
-            "них",
-            "тогда",
-        ];
-        let described = command::without_verbs(&text);
-        let keys = word_keys(&described);
-        let is_one = |key: &&String| ONE.contains(&key.as_str());
-        let bare = keys.iter().all(|key| is_one(&key) || SMALL.contains(&key.as_str()));
-        let of_one_kind = self.knowledge(Language::of(&text), memory).alike(&memory.last).is_some();
-        if !bare || keys.iter().filter(is_one).count() != 1 || memory.last.len() < 2 || !of_one_kind
-        {
-            return text;
-        }
-        let Some((_, sort)) = command::clauses(&text).first().copied() else { return text };
+        const THEM: [&str; 6] = ["them", "those", "these", "них", "этих", "тех"];
+        const SMALL: [&str; 5] = ["me", "мне", "please", "пожалуйста", "тогда"];
+        let (words, keys) = (word_ranges(&text), word_keys(&text));
+        let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&&**key));
+        let of_them = |n: &usize| {
+            // "One of those cups" names them.
+            let ends = is(n + 2, &["them", "них"])
+                || keys.len() == n + 3
+                || text[words[n + 2].end..words[n + 3].start].contains([',', '.', '!']);
+            is(*n, &ONE) && is(n + 1, &["of", "из"]) && is(n + 2, &THEM) && ends
+        };
+        let said = (0..keys.len().saturating_sub(2)).find(of_them).map(|n| (n, n + 2));
+        let bare = || {
+            let described = word_keys(&command::without_verbs(&text));
+            let is_one = |key: &&String| ONE.contains(&key.as_str());
+            let all = described.iter().all(|key| is_one(&key) || SMALL.contains(&key.as_str()));
+            let once = all && described.iter().filter(is_one).count() == 1;
+            let at = keys.iter().position(|key| ONE.contains(&key.as_str())).filter(|_| once)?;
+            Some((at, at))
+        };
         let language = Language::of(&text);
         let knowledge = self.knowledge(language, memory);
+        let alike = memory.last.len() > 1 && knowledge.alike(&memory.last).is_some();
+        let Some((first, last)) = said.or_else(|| bare().filter(|_| alike)) else {
+            return Ok(text);
+        };
+        let at = words[first].start..words[last].end;
+        let sort = command::clauses(&text).first().map_or(Sort::Other, |(_, sort)| *sort);
+        let can = |t: &Thing| knowledge.can(sort, *t);
+        let fit: Vec<Thing> = memory.last.iter().copied().filter(can).collect();
         let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
-        let fit = memory.last.iter().filter(|t| knowledge.can(sort, **t));
-        let Some(nearest) = fit.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b))) else {
-            return text;
-        };
-        let (words, keys) = (word_ranges(&text), word_keys(&text));
-        let is_one = |key: &String| ONE.contains(&key.as_str());
-        let Some(at) = keys.iter().position(is_one) else { return text };
-        let of_those = |n: usize| ["of", "из"].contains(&keys[n].as_str());
-        let end = match keys.len() > at + 2 && of_those(at + 1) {
-            true => words[at + 2].end,
-            false => words[at].end,
-        };
-        text.replace_range(words[at].start..end, &knowledge.form(*nearest, Case::Accusative));
-        text
+        let nearest = fit.iter().min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)));
+        match nearest {
+            Some(nearest) if memory.last.len() > 1 && knowledge.alike(&fit).is_some() => {
+                text.replace_range(at, &knowledge.form(*nearest, Case::Accusative));
+                Ok(text)
+            }
+            _ if said.is_none() => Ok(text),
+            Some(_) if fit.len() > 1 => {
+                let reference = text[at.clone()].to_owned();
+                Err((Doubt::Ambiguous { reference, candidates: fit }, at))
+            }
+            _ => Err((Doubt::not_understood(&text[at.clone()]), at)),
+        }
     }
 
     /// An adjective without its noun: «вторую» counts what was told, «красную» is of the kind of what was spoken of.
