@@ -67,6 +67,60 @@ fn a_room_with_two_things_has_both() {
     assert!(told > 20, "{told}");
 }
 
+/// "Is there a sink in the kitchen and a window?", "…, or any windows?": the second is sought where the first is.
+#[test]
+fn what_is_any_of_its_kind_is_sought_as_the_first() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        let has = |room: &str, kind: &str| {
+            ask(&engine, &format!("Is there a {kind} in {room}?")).map(|answer| answer.said)
+        };
+        for (n, pair) in kinds.windows(2).enumerate() {
+            let ([one, other], room) = (pair, &rooms[n % rooms.len()]) else { continue };
+            let (Some(first), Some(second)) = (has(room, one), has(room, other)) else { continue };
+            let (first, second) = (first == Said::Yes, second == Said::Yes);
+            for (line, is_so) in [
+                (format!("Is there a {one} in {room} and a {other}?"), first && second),
+                (format!("Is there any {one} in {room}, and any {other}?"), first && second),
+                (format!("Is there a {one} in {room} or a {other}?"), first || second),
+            ] {
+                let Some(found) = ask(&engine, &line) else { continue };
+                assert_eq!(found.said == Said::Yes, is_so, "{line}: {}", found.text);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 40, "{told}");
+}
+
+/// "How many sinks are in the kitchen? And how many windows?", in one sentence or two: both are counted there.
+#[test]
+fn what_is_counted_next_is_counted_there() {
+    let mut told = 0;
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        for (n, pair) in kinds.windows(2).enumerate() {
+            let ([one, other], room) = (pair, &rooms[n % rooms.len()]) else { continue };
+            let first = format!("How many {one}s are in {room}");
+            let alone = ask(&engine, &format!("How many {other}s are in {room}?"));
+            let (Some(alone), Some(_)) = (alone, ask(&engine, &first)) else { continue };
+            let mut memory = Memory::default();
+            engine.ask(&first, &mut memory).expect("there is a map").expect("it was answered");
+            let next = engine.ask(&format!("And how many {other}s?"), &mut memory).unwrap();
+            let Ok(next) = next else { continue };
+            assert_eq!(next.text, alone.text, "{first}? And how many {other}s?");
+            let both = ask(&engine, &format!("{first}, and how many {other}s?"));
+            let ends_so = |both: Answer| both.text.ends_with(&alone.text);
+            assert!(both.is_none_or(ends_so), "{first}, and how many {other}s?");
+            told += 1;
+        }
+    }
+    assert!(told > 15, "{told}");
+}
+
 /// "Does the bedroom have a window and the kitchen a fridge?": each room by itself, or not understood.
 #[test]
 fn the_verb_of_one_claim_is_that_of_the_next() {

@@ -163,10 +163,17 @@ impl Asker<'_> {
         {
             return Some(query);
         }
+        let said = word_keys(text).len();
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let mut noun = self.fragment(&sentence, memory)?;
-        let counts = sentence.items().contains(&Item::Mark(Mark::HowMany));
+        // "And how many cups?" goes on as "And cups?" does; "how many in all?" does not.
+        let counted =
+            counted_alone(&sentence, said).filter(|_| !of_those && matches!(last, Query::Count(_)));
+        let counts = counted.is_none() && sentence.items().contains(&Item::Mark(Mark::HowMany));
+        let mut noun = match counted {
+            Some(noun) => noun,
+            None => self.fragment(&sentence, memory)?,
+        };
         // «А мыло там?» tells its place itself.
         let placed = matches!(last, Query::Where(_) | Query::RoomOf(_) | Query::Holds { .. });
         let names = noun.head != Head::default();
@@ -303,6 +310,14 @@ impl Asker<'_> {
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// "…, and how many cups?": where it was counted before.
+    pub(super) fn counted_too(&self, part: &str, memory: &Memory) -> Option<Query> {
+        let sentence = Sentence::new(part, &self.mind.lexicon);
+        counted_alone(&sentence, 1 + word_keys(part).len())?;
+        let and = sentence.language.pick("а", "and");
+        self.continued(&format!("{and} {part}"), memory)
     }
 
     /// A description by itself: "the spoons in the kitchen".
@@ -500,4 +515,21 @@ fn corrected(text: &str) -> Option<&str> {
     let denied = usize::from(keys.first().is_some_and(|key| NO.contains(&key.as_str())));
     let meant = MEANT.iter().find_map(|meant| phrase_at(&keys, denied, meant))?;
     word_ranges(text).get(denied + meant).map(|word| &text[word.start..])
+}
+
+/// «А сколько чашек?»: what is counted, where of so many words none says anything else.
+fn counted_alone(sentence: &Sentence<'_>, said: usize) -> Option<Noun> {
+    let items = sentence.items();
+    let small = |item: &Item| {
+        matches!(item, Item::Noun(_) | Item::Mark(Mark::And | Mark::HowMany | Mark::The | Mark::A))
+    };
+    let mut nouns = items.iter().filter_map(|item| match item {
+        Item::Noun(phrase) => Some(phrase),
+        _ => None,
+    });
+    let counts = items.contains(&Item::Mark(Mark::HowMany)) && items.iter().all(small);
+    let phrase = nouns.next().filter(|_| counts && nouns.next().is_none())?;
+    // "And", and «сколько» or "how many".
+    let others = 1 + sentence.language.pick(1, 2);
+    (said <= others + phrase.words.len()).then(|| phrase.noun.clone())
 }

@@ -27,7 +27,9 @@ impl Asker<'_> {
         let mut answers = Vec::new();
         let last = parts.last().copied().unwrap_or_default();
         for (n, part) in parts.iter().enumerate() {
-            if let Some(query) = self.other_side(part, &after).filter(|_| n > 0) {
+            let further =
+                || self.other_side(part, &after).or_else(|| self.counted_too(part, &after));
+            if let Some(query) = (n > 0).then(further).flatten() {
                 let answer = self.knowledge(language, &after).answer(&query).ok()?;
                 after.learn(&answer);
                 answers.push(answer);

@@ -67,6 +67,18 @@ impl Sentence<'_> {
         }
     }
 
+    /// "Is there a cup in the kitchen and a plate?": what is any one of its kind, behind a place that is a certain one, is
+    /// sought as the cup is. Russian has cases for it.
+    pub(super) fn is_sought_too(&self, link: &Token, place: &Noun, next: &Noun) -> bool {
+        let is_any = |noun: &Noun| noun.head.things.is_none() && (noun.indefinite || noun.plural);
+        let before = || self.tokens.iter().take_while(|token| token.to <= link.from);
+        self.language == Language::English
+            && is_any(next)
+            && !is_any(place)
+            && before().any(|token| token.kind == Tok::Mark(Mark::Exists))
+            && before().any(|token| matches!(token.kind, Tok::Noun(_)))
+    }
+
     /// «К чему прислонён зонт?»: what leans follows in the nominative; what it leans against would stand in the dative.
     pub(super) fn is_leaning(&self, link: &Token, rel: Rel, next: &Phrase) -> bool {
         let bare = self.keys[link.to as usize - 1] != "к";

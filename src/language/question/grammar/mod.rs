@@ -22,7 +22,7 @@ use std::ops::Range;
 use std::slice::Iter;
 
 use nom::branch::alt;
-use nom::combinator::{map, opt};
+use nom::combinator::{map, opt, verify};
 use nom::error::{Error, ErrorKind};
 use nom::multi::{many0, many1};
 use nom::sequence::pair;
@@ -286,7 +286,11 @@ impl<'t> Sentence<'t> {
                 false => fail(i),
             }
         };
-        let joined = |i| many0(pair(pair(joint, again), next)).parse(i);
+        let further = |((_, again), noun): &((Mark, Option<Mark>), Phrase)| {
+            let is_bare = again.is_none() && rel != Rel::Between;
+            !(is_bare && self.is_sought_too(&input.0[0], &first.noun, &noun.noun))
+        };
+        let joined = |i| many0(verify(pair(pair(joint, again), next), further)).parse(i);
         let list = many1(listed).parse(rest).and_then(|(after, listed)| {
             let (after, joined) = joined(after)?;
             Ok((after, listed.into_iter().chain(joined).collect::<Vec<_>>()))
