@@ -162,16 +162,19 @@ impl<'l> Tracker<'l> {
         self.looks.extend(self.localiser.look(sensor, ranges, odometry));
         let past = self.looks.len().saturating_sub(MOST_LOOKS);
         self.looks.drain(..past);
-        let alone = || self.localiser.locate(sensor, ranges);
+        let alone = self.localiser.locate(sensor, ranges);
         let answer = match &self.looks[..] {
-            [] | [_] => alone(),
-            looks => match self.localiser.along(looks) {
-                Answer::Unique(fit) => Answer::Unique(fit),
-                // One scan may be clear where those before were not.
-                several => match alone() {
-                    Answer::Unique(fit) => Answer::Unique(fit),
-                    _ => several,
-                },
+            [] | [_] => alone,
+            looks => match (self.localiser.along(looks), alone) {
+                (Answer::Unique(fit), Answer::Unique(other))
+                    if is_near(&fit.pose, &other.pose, APART) =>
+                {
+                    Answer::Unique(fit)
+                }
+                // One scan may be clear where those before were not; and what the chart has and is not there any more bars
+                // the right place from all looks that went through it, so that another is the likeliest by far.
+                (_, Answer::Unique(other)) => Answer::Unique(other),
+                (along, _) => along,
             },
         };
         let is_confirmed = |fit: &Fit| {
