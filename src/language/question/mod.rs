@@ -600,6 +600,10 @@ impl Asker<'_> {
             let knowledge = self.knowledge(language, memory);
             return knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))));
         }
+        if self.asks_of_posture(text, memory) {
+            let words = text.to_owned();
+            return Err(Box::new((Doubt::NotUnderstood { words }, None)));
+        }
         let continued = || self.continued(text, memory).or_else(|| self.on_a_side(text, memory));
         let mut query = match self.noted(text).or_else(continued) {
             Some(query) => query,

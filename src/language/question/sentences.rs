@@ -27,6 +27,11 @@ impl Asker<'_> {
         let mut answers = Vec::new();
         let last = parts.last().copied().unwrap_or_default();
         for (n, part) in parts.iter().enumerate() {
+            let goes_on = n > 0 && word_keys(part).first().is_some_and(|key| key == "а");
+            if n > 0 && self.asks_of_posture(part, &after) {
+                let words = (*part).to_owned();
+                return Some(Err(Box::new((Doubt::NotUnderstood { words }, None))));
+            }
             let further =
                 || self.other_side(part, &after).or_else(|| self.counted_too(part, &after));
             if let Some(query) = (n > 0).then(further).flatten() {
@@ -56,6 +61,7 @@ impl Asker<'_> {
                             None if n == 0 && matches!(unanswered.0, Doubt::Ambiguous { .. }) => {
                                 return Some(Err(unanswered));
                             }
+                            None if goes_on => return Some(Err(unanswered)),
                             None => return None,
                         }
                     }
@@ -133,6 +139,25 @@ impl Asker<'_> {
     }
 
     /// Whether a question names nothing that it is about: "in which room", «какого цвета».
+    /// «Сколько картин висит? А сколько лежит?»: what hangs is told apart from what stands and lies, and how many of what was
+    /// asked of do not hang, nothing measures.
+    pub(super) fn asks_of_posture(&self, text: &str, memory: &Memory) -> bool {
+        let Some(last) = memory.query.as_ref().and_then(Query::sought) else { return false };
+        let knowledge = self.knowledge(Language::of(text), memory);
+        let hangs = last.restrictions.iter().any(|restriction| {
+            restriction.rel == Rel::On && restriction.anchors.iter().any(|a| knowledge.is_walls(a))
+        });
+        if !hangs {
+            return false;
+        }
+        let text = self.plain(text);
+        let items = Sentence::new(&text, &self.mind.lexicon).items();
+        let small = |item: &Item| {
+            matches!(item, Item::Mark(Mark::And | Mark::HowMany | Mark::Which | Mark::Be))
+        };
+        items.contains(&Item::Mark(Mark::Be)) && items.iter().all(small)
+    }
+
     pub(super) fn lacks_subject(&self, part: &str) -> bool {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);

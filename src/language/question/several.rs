@@ -14,7 +14,9 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
         let (before, behind) = (&keys[..n], &keys[n + 1..]);
         let joint = is_joint(&keys[n]) && (begins(behind) || asks_of_those(before, behind));
         let anew = comma && begins_anew(&keys[n..]);
-        (asks(&keys[..n]) && (joint || anew)).then(|| match joint {
+        // «…, а чашек?»: the same of something else. «…, а не на полке?» only sets off.
+        let goes_on = comma && keys[n] == "а" && behind.first().is_some_and(|key| key != "не");
+        (asks(&keys[..n]) && (joint || anew || goes_on)).then(|| match joint {
             true => (words[n].start, words[n].end),
             false => (words[n].start, words[n].start),
         })
