@@ -121,7 +121,8 @@ impl<'a> Names<'a> {
                 rest = after;
                 continue;
             }
-            let end = word.find(|c| !is_of_name(c)).filter(|end| *end > 0).unwrap_or(word.len());
+            // A quote that nothing closes stands for itself.
+            let end = word.find(|c| !is_of_name(c)).unwrap_or(word.len()).max(1);
             let (word, after) = word.split_at(end);
             // A relation's name is followed by its tuple.
             shown.push_str(&if after.starts_with('(') { self.name(word) } else { word.to_owned() });

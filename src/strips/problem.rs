@@ -60,6 +60,7 @@ pub struct Problem {
     preferences: Vec<(Preference, Formula)>,
     /// Assumptions that were made, and made no longer.
     pub(super) withdrawn: Vec<Statement>,
+    /// What a map calls the objects in another language.
     pub(super) called: OtherNames,
 }
 

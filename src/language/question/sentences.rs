@@ -138,7 +138,6 @@ impl Asker<'_> {
         Some(Query::Find(noun))
     }
 
-    /// Whether a question names nothing that it is about: "in which room", «какого цвета».
     /// «Сколько картин висит? А сколько лежит?»: what hangs is told apart from what stands and lies, and how many of what was
     /// asked of do not hang, nothing measures.
     pub(super) fn asks_of_posture(&self, text: &str, memory: &Memory) -> bool {
@@ -158,6 +157,7 @@ impl Asker<'_> {
         items.contains(&Item::Mark(Mark::Be)) && items.iter().all(small)
     }
 
+    /// Whether a question names nothing that it is about: "in which room", «какого цвета».
     pub(super) fn lacks_subject(&self, part: &str) -> bool {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
