@@ -8,6 +8,7 @@ mod broken_scenarios;
 mod chatter;
 mod cli;
 mod commands;
+mod complements;
 mod corridor;
 mod corridor_floors;
 mod corridor_lattice;

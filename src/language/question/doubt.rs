@@ -2,7 +2,7 @@
 
 use super::departed::Departed;
 use super::query::{Noun, Thing};
-use crate::words::Language;
+use crate::words::{Language, word_keys};
 
 /// Why a question has no answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -66,6 +66,14 @@ impl Doubt {
         Self::NotUnderstood { words }
     }
 
+    /// The doubt in the words of who asked: a sentence is put plainly before it is read, and what was put in is not theirs.
+    pub(super) fn quoted_from(self, text: &str) -> Self {
+        match self {
+            Self::NotUnderstood { words } if !says(text, &words) => Self::not_understood(text),
+            other => other,
+        }
+    }
+
     /// A stable word for the outcome: the three of SPEC T2, and what was not said.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -83,6 +91,12 @@ impl Doubt {
             | Self::NoStorey { .. } => "unknown",
         }
     }
+}
+
+/// Whether a text has some words as they stand, one after another.
+fn says(text: &str, words: &str) -> bool {
+    let (said, quoted) = (word_keys(text), word_keys(words));
+    quoted.is_empty() || said.windows(quoted.len()).any(|run| *run == *quoted)
 }
 
 /// A doubt with its words.

@@ -359,7 +359,7 @@ impl Asker<'_> {
             }
             Err(unanswered) => {
                 let (doubt, query) = *unanswered;
-                let doubt = memory.why_nothing(doubt);
+                let doubt = memory.why_nothing(doubt).quoted_from(text);
                 let before = memory.exchanges.clone();
                 // What else the question named is spoken of all the same.
                 if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {

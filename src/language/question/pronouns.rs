@@ -48,7 +48,8 @@ impl Knowledge<'_> {
             Pronoun::They => {
                 let several =
                     |t: &Thing| self.memory.is_plural || self.gender(*t).1 == Number::Plural;
-                self.taken_up(pronoun, rel).into_iter().take(1).filter(several).collect()
+                // "I can't find my keys. Where are they?": of two sets neither is meant rather than the other.
+                self.taken_up(pronoun, rel).into_iter().filter(several).collect()
             }
             _ => self.taken_up(pronoun, rel),
         }
@@ -77,7 +78,8 @@ impl Knowledge<'_> {
             rank.unwrap_or_default()
         };
         let found = fitting(&may);
-        let found = if found.is_empty() { fitting(&|_| true) } else { found };
+        let whatever = found.is_empty() && rel != Some(Rel::Outside);
+        let found = if whatever { fitting(&|_| true) } else { found };
         if !found.is_empty() {
             return found;
         }
@@ -192,13 +194,15 @@ impl Knowledge<'_> {
     pub(super) fn may_be_anchor(&self, rel: Rel, thing: Thing) -> bool {
         let wanted: &[&str] = match rel {
             Rel::On => &["support", "seat", "bed"],
-            Rel::In => &["container"],
+            // «… в тумбе, а сколько снаружи?»: outside of what has an inside.
+            Rel::In | Rel::Outside => &["container"],
             _ => return true,
         };
         let has = |id| wanted.iter().any(|wanted| self.world.has_trait(id, wanted));
+        let held = if rel == Rel::Outside { Rel::In } else { rel };
         match thing.replica() {
-            Some(id) => has(id) || !self.related(rel, thing).is_empty(),
-            None => rel == Rel::In && thing.area().is_some(),
+            Some(id) => has(id) || !self.related(held, thing).is_empty(),
+            None => held == Rel::In && thing.area().is_some(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
+use super::query::Denial;
 use super::salvage::{goes_on, is_reported};
 use super::{
     Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Thing, Unanswered, opening, premise,
@@ -78,7 +79,8 @@ impl Asker<'_> {
         Some(Ok(Answer::joined(answers, language)))
     }
 
-    /// «Что справа от тебя и что слева?», «А внутри?»: another side of what the question before was about.
+    /// «Что справа от тебя и что слева?», «А внутри?», "How many are in it and how many outside?": another side of what the
+    /// question before was about.
     pub(super) fn other_side(&self, part: &str, memory: &Memory) -> Option<Query> {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
@@ -90,6 +92,7 @@ impl Asker<'_> {
                     | Rel::InFrontOf
                     | Rel::Behind
                     | Rel::In
+                    | Rel::Outside
                     | Rel::On
                     | Rel::Under
                     | Rel::Above
@@ -97,6 +100,7 @@ impl Asker<'_> {
             )
         };
         let (mut side, mut pronoun) = (None, None);
+        let (mut counts, mut which, mut what_or_which) = (false, false, false);
         for item in sentence.items() {
             match item {
                 Item::Link(rel) if sided(rel) && side.is_none() => side = Some(rel),
@@ -108,11 +112,27 @@ impl Asker<'_> {
                 {
                     (side, pronoun) = (Some(rel), nouns[0].pronoun);
                 }
-                Item::Mark(Mark::What | Mark::Be | Mark::Exists | Mark::And) => {}
+                Item::Mark(Mark::HowMany) => counts = true,
+                Item::Mark(Mark::Which) => (which, what_or_which) = (true, true),
+                Item::Mark(Mark::What) => what_or_which = true,
+                Item::Mark(Mark::Be | Mark::Exists | Mark::And) => {}
+                // "Is there one outside?"
+                Item::Noun(phrase) if phrase.noun.head.anything && phrase.words.len() == 1 => {}
                 _ => return None,
             }
         }
-        let Some(Query::Find(before)) = &memory.query else { return None };
+        counts |= matches!(memory.query, Some(Query::Count(_))) && !what_or_which;
+        let before = match &memory.query {
+            Some(Query::Find(before)) if !(counts || which && before.head.anything) => before,
+            Some(Query::Count(before)) if counts => before,
+            // "Is there an egg in the fridge, and is there one outside?"
+            Some(Query::Exists { what, either: false, denial: Denial::None })
+                if let ([before], false) = (&what[..], counts || what_or_which) =>
+            {
+                before
+            }
+            _ => return None,
+        };
         // «Какая книга на комоде? Что рядом с ней?»: with the book, of which it was asked; «с ним» is with the dresser.
         let knowledge = self.knowledge(sentence.language, memory);
         let means = |pronoun: Pronoun, thing: &Thing| knowledge.agrees(pronoun, *thing);
@@ -132,10 +152,16 @@ impl Asker<'_> {
         place.rel = side.filter(|side| sided(place.rel) && *side != place.rel)?;
         // Nothing is on a room or under it.
         let of_room = place.anchors.iter().any(|anchor| self.is_room(anchor));
-        if of_room {
+        if of_room && !matches!(place.rel, Rel::In | Rel::Outside) {
             return None;
         }
-        Some(Query::Find(noun))
+        Some(match &memory.query {
+            Some(Query::Count(_)) => Query::Count(noun),
+            Some(Query::Exists { either, denial, .. }) => {
+                Query::Exists { what: vec![noun], either: *either, denial: *denial }
+            }
+            _ => Query::Find(noun),
+        })
     }
 
     /// «Сколько картин висит? А сколько лежит?»: what hangs is told apart from what stands and lies, and how many of what was

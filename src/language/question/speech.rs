@@ -402,6 +402,8 @@ impl Knowledge<'_> {
     /// Where a description says its things are: «в Комнате-В на столах».
     pub(super) fn restrictions(&self, noun: &Noun) -> String {
         let mut parts: Vec<String> = noun.sizes.iter().map(|size| self.size_words(*size)).collect();
+        parts
+            .extend(noun.beyond.as_ref().and_then(|(extreme, other)| self.beyond(*extreme, other)));
         // "in every room except the kitchen"
         let rooms = |a: &Noun| {
             let is_room = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;

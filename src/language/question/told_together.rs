@@ -274,7 +274,9 @@ impl Knowledge<'_> {
         let topics = self.memory.exchanges.iter();
         let topics = topics.flat_map(|e| [e.topics(), e.members(), e.compared()]);
         let mut told = std::iter::once(&last[..]).chain(topics);
-        told.find(|things| fit(things)).unwrap_or(last).to_vec()
+        // All things are outside of what has no inside, which nobody asks.
+        let otherwise = if rel == Some(Rel::Outside) { &[][..] } else { last };
+        told.find(|things| fit(things)).unwrap_or(otherwise).to_vec()
     }
 
     /// What the rooms have that were told last.

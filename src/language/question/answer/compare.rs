@@ -127,6 +127,34 @@ impl Knowledge<'_> {
         }
     }
 
+    /// «больше Кухни», "taller than Wardrobe 1"
+    pub(in crate::question) fn beyond(&self, extreme: Extreme, other: &Noun) -> Option<String> {
+        let other = self.one(other).ok()?;
+        let word = self.comparative(extreme);
+        Some(match self.is_russian() {
+            true => format!("{word} {}", self.form(other, Case::Genitive)),
+            false => format!("{word} than {}", self.name(other)),
+        })
+    }
+
+    /// That the map gives no measure of what others are said to be beyond, or of none of them: "heavier than the laptop".
+    ///
+    /// # Errors
+    /// What is meant by the descriptions.
+    pub(super) fn unmeasured(&self, noun: &Noun) -> Result<Option<Draft>, Doubt> {
+        let Some((extreme, other)) = &noun.beyond else { return Ok(None) };
+        let other = self.one(other)?;
+        if self.measure(*extreme, other).is_none() {
+            return Ok(Some(self.incomparable(&[other], *extreme)));
+        }
+        let others = self.find(&Noun { beyond: None, ..noun.clone() }, false)?;
+        let mut others = others.into_iter().filter(|t| *t != other).peekable();
+        let none = others.peek().is_some() && others.all(|t| self.measure(*extreme, t).is_none());
+        let text =
+            || self.pick("сравнить их карта не даёт", "the map does not let them be compared");
+        Ok(none.then(|| Draft::new(Said::Unknown, text().to_owned())))
+    }
+
     pub(super) fn measure_words(&self, extreme: Extreme, thing: Thing) -> String {
         let Some(measure) = self.measure(extreme, thing) else { return String::new() };
         let is_area = thing.area().is_some();

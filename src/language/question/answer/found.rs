@@ -101,6 +101,8 @@ impl Knowledge<'_> {
                         false => format!("{list} {leads} {place}"),
                     }
                 }
+                // «Шкаф-1 и Шкаф-2 выше Холодильника-1»
+                (true, false) if noun.beyond.is_some() => format!("{list} {place}{frame}"),
                 // «Выше 2 м Шкаф-1 и Шкаф-2»
                 (true, false) if !noun.sizes.is_empty() => format!("{place}{frame} {list}"),
                 (true, false) => format!("{place}{frame} {} {list}", self.is(&found)),
@@ -352,7 +354,7 @@ impl Knowledge<'_> {
         let frame = self.frame_of(noun);
         let general = noun.head.anything && noun.filters.is_empty();
         let but = noun.other || !noun.except.is_empty();
-        if !noun.also.is_empty() || noun.like.is_some() || noun.beyond.is_some() {
+        if !noun.also.is_empty() || noun.like.is_some() {
             return format!("{place} {}", self.pick("таких нет", "there are none such"));
         }
         match (self.is_russian(), general) {
@@ -610,7 +612,8 @@ impl Knowledge<'_> {
             return list;
         }
         // «есть 6 стульев без вещей»
-        if self.is_russian() && self.is_having(noun) && !general {
+        let compares = self.is_having(noun) || (noun.beyond.is_some() && things.len() > 1);
+        if self.is_russian() && compares && !general {
             return format!("есть {} {place}: {list}", self.counted(noun, things.len()));
         }
         let unplaced = place.is_empty() && things.len() == 1;
@@ -621,6 +624,8 @@ impl Knowledge<'_> {
         });
         let room = room.unwrap_or_default();
         match (self.is_russian(), general || things.len() == 1) {
+            // «выше шкафа есть полка» would say where it hangs.
+            (true, true) if noun.beyond.is_some() => format!("есть {list} {place}"),
             (true, true) => format!("{blank}есть {list}{room}"),
             (true, false) => format!("{blank}есть {}: {list}", self.counted(noun, things.len())),
             (false, true) => {

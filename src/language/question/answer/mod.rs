@@ -100,7 +100,13 @@ impl Knowledge<'_> {
     /// # Errors
     /// A description that fits several things where one is meant, or none.
     pub(super) fn answer(&self, query: &Query) -> Result<Answer, Doubt> {
+        let beyond = match query {
+            Query::Find(noun) | Query::Count(noun) => self.unmeasured(noun)?,
+            Query::Exists { what, .. } => what.first().map_or(Ok(None), |n| self.unmeasured(n))?,
+            _ => None,
+        };
         let draft = match query {
+            _ if let Some(unmeasured) = beyond => unmeasured,
             Query::Where(noun) => self.say_where(noun)?,
             Query::RoomOf(noun) => self.room_of(noun)?,
             Query::Find(noun) => self.say_found(noun)?,

@@ -148,12 +148,16 @@ impl Frame<'_, '_> {
             }
         }
         let either = self.has(Mark::Or);
-        let denial = match none || self.says_nothing() {
+        Some(Query::Exists { what, either, denial: self.denied(none) })
+    }
+
+    /// Of what yes and no are said where a question asks whether there is something.
+    pub(super) fn denied(&self, none: bool) -> Denial {
+        match none || self.says_nothing() {
             // «Нет ли на кухне молока?», "Is there no milk?" ask whether there is some.
             true if self.has(Mark::Exists) && !self.says_nothing() => Denial::Idle,
             is_denied => is_denied.into(),
-        };
-        Some(Query::Exists { what, either, denial })
+        }
     }
 
     /// "Is there nothing on the sofa?"

@@ -333,33 +333,59 @@ impl Frame<'_, '_> {
         Some(Query::Several(each.collect()))
     }
 
-    /// "Which room is bigger than the kitchen?", «Что выше холодильника?»: all that are so.
+    /// "Which room is bigger than the kitchen?", «Что выше холодильника?»: all that are so; how many are, or whether any.
     fn beyond(&self, extreme: Extreme) -> Option<Query> {
         let side = matches!(extreme, Extreme::LeftMost | Extreme::RightMost);
-        if !self.asks() || self.has(Mark::Or) || side || self.asks_by_how_much() {
+        if self.has(Mark::Or) || side {
             return None;
         }
         let more =
             self.marks.iter().find_map(|(m, at)| matches!(m, Mark::More(_)).then_some(*at))?;
         let (asked, other) = match &self.nouns[..] {
-            [asked, other] if self.follows_which(asked.at) && other.at > more => {
-                let general = asked.noun.head.named.is_empty()
-                    && asked.noun.head.things.is_none()
-                    && self.is_area(&asked.noun) == self.is_area(&other.noun);
-                (general.then(|| asked.noun.clone())?, other)
-            }
-            [other] if other.at > more && !self.follows_which(other.at) => {
-                let head = Head { anything: true, ..Head::default() };
-                (Noun { head, ..Noun::default() }, other)
-            }
+            [asked, other] if other.at > more => (Some(asked), other),
+            [other] if other.at > more && !self.follows_which(other.at) => (None, other),
             _ => return None,
         };
-        let mut noun = Noun { plural: true, indefinite: true, ..asked };
+        let general = |asked: &&Subject| {
+            asked.noun.head.named.is_empty()
+                && asked.noun.head.things.is_none()
+                && self.is_area(&asked.noun) == self.is_area(&other.noun)
+        };
+        let anything = Head { anything: true, ..Head::default() };
+        let noun = match asked {
+            Some(asked) => asked.noun.clone(),
+            None => Noun { head: anything, ..Noun::default() },
+        };
+        let mut noun = Noun { plural: true, indefinite: true, ..noun };
         for spot in self.spots.iter().filter(|s| s.at < more) {
             self.attach(&mut noun, spot);
         }
         noun.beyond = Some((extreme, Box::new(self.with_own_places(other))));
-        Some(Query::Find(noun))
+        // "How many rooms are bigger than …?", not "How much bigger is …?" nor «На сколько столы выше …?».
+        let counts = |at: usize| {
+            asked.is_some_and(|asked| asked.noun.plural && asked.at == at + 1)
+                && !self.links.iter().any(|(_, link)| link + 1 == at)
+        };
+        if let Some(at) = self.place_of(Mark::HowMany) {
+            return asked.filter(general).filter(|_| counts(at)).map(|_| Query::Count(noun));
+        }
+        if self.asks_by_how_much() {
+            return None;
+        }
+        if self.asks() {
+            let which = asked.is_none_or(|asked| self.follows_which(asked.at) && general(&asked));
+            return which.then_some(Query::Find(noun));
+        }
+        // "Is there anything taller than …?", "Is any chair …?"
+        let any = match asked {
+            Some(asked) => general(&asked) && (self.has(Mark::Exists) || asked.noun.indefinite),
+            None => self.has(Mark::Anything) || self.has(Mark::Exists),
+        };
+        any.then(|| Query::Exists {
+            what: vec![noun],
+            either: false,
+            denial: self.denied(self.negated),
+        })
     }
 
     /// A noun with the places that stand behind it, before the next.

@@ -88,15 +88,18 @@ impl Frame<'_, '_> {
             return None;
         }
         let goes = self.has(Mark::Move) || self.has(Mark::Lead);
-        // «Через какие комнаты идти из спальни в ванную?»
-        let through = self.links.iter().any(|(rel, _)| *rel == Rel::Through)
-            && self.nouns.iter().all(|s| self.is_rooms(&s.noun));
+        // «Через какие комнаты идти из спальни в ванную?», "Which doors do I go through from the hall to the bedroom?": of one
+        // door it is asked which lies between.
+        let passed =
+            |s: &Subject| self.is_rooms(&s.noun) || (self.is_doors(&s.noun) && s.noun.plural);
+        let through =
+            self.links.iter().any(|(rel, _)| *rel == Rel::Through) && self.nouns.iter().all(passed);
         // "Which doors do I pass on the way from the hall to the bedroom?"
         let both = self.spot(&[Rel::From]).is_some() && self.spot(&[Rel::To, Rel::In]).is_some();
-        let by_doors = both
-            && self.has(Mark::HowGet)
-            && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
-        let by_rooms = self.asks() && ((through && goes) || by_doors);
+        let named = |s: &Subject| self.is_doors(&s.noun) || self.is_rooms(&s.noun);
+        let on_the_way = (self.has(Mark::HowGet) && self.nouns.iter().all(named))
+            || (self.has(Mark::Move) && self.nouns.iter().all(passed));
+        let by_rooms = self.asks() && ((through && goes) || (both && on_the_way));
         if by_rooms {
             let to = self.spot_noun(&[Rel::To]).or_else(|| self.spot_noun(&[Rel::In, Rel::On]))?;
             let from = self.spot_noun(&[Rel::From]);

@@ -269,13 +269,14 @@ impl Frame<'_, '_> {
                     doors.restrictions.push(Restriction { rel: Rel::To, anchors, negated });
                     return Some(Query::Find(doors));
                 }
-                // «На каком столе пять тарелок?»: which of them bears so many.
+                // «На каком столе пять тарелок?», «На каком столе нет тарелки?»: which of them bears so many, or none.
                 let part = |k: &_| matches!(self.lexicon.kind(*k).extension, Extension::Part(_));
                 let parts = asked.noun.head.kinds.iter().any(part);
-                if counted && !parts && matches!(rel, Rel::In | Rel::On) {
+                let negated = self.negated || of.negated;
+                if (counted || negated) && !parts && matches!(rel, Rel::In | Rel::On) {
                     let mut noun = Noun { indefinite: true, ..asked.noun.clone() };
+                    noun.plural |= negated;
                     let anchors = vec![Noun { indefinite: true, ..of_noun }];
-                    let negated = self.negated;
                     noun.restrictions.push(Restriction { rel: Rel::Bears, anchors, negated });
                     return Some(Query::Find(noun));
                 }
