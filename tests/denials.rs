@@ -280,3 +280,101 @@ fn a_denial_within_a_description_tells_of_the_thing() {
     }
     assert!(told > 20, "{told}");
 }
+
+/// What rooms have and what they lack, in any order and with any joint: as it is so of each room by itself. Where only the
+/// one is denied the other is not.
+#[test]
+fn a_denial_ends_where_something_else_is_said_to_be_there() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    let kinds = [
+        ["кровать", "кровати", "a bed", "bed"],
+        ["диван", "дивана", "a sofa", "sofa"],
+        ["холодильник", "холодильника", "a fridge", "fridge"],
+        ["телевизор", "телевизора", "a TV", "TV"],
+        ["шкаф", "шкафа", "a wardrobe", "wardrobe"],
+    ];
+    let rooms = ["Комнате-В", "Комнате-Z", "Комнате-Y", "Коридоре"];
+    let symbols = ["Комната-В", "Комната-Z", "Комната-Y", "Коридор"];
+    let has = |kind: &str, room: &str| {
+        is_so(&engine, &format!("Есть ли {kind} в {room}?")).expect("a plain question")
+    };
+    let mut understood = 0;
+    let mut asked = 0;
+    for [there, there_of, a, bare] in kinds {
+        for [lacks, lacks_of, another, no] in kinds {
+            if there == lacks {
+                continue;
+            }
+            let with: Vec<&str> = (0..rooms.len())
+                .filter(|n| has(there, rooms[*n]) && !has(lacks, rooms[*n]))
+                .map(|n| symbols[n])
+                .collect();
+            let neither: Vec<&str> = (0..rooms.len())
+                .filter(|n| !has(there, rooms[*n]) && !has(lacks, rooms[*n]))
+                .map(|n| symbols[n])
+                .collect();
+            let not_both: Vec<&str> = (0..rooms.len())
+                .filter(|n| !(has(there, rooms[*n]) && has(lacks, rooms[*n])))
+                .map(|n| symbols[n])
+                .collect();
+            let lines = [
+                (format!("В каких комнатах есть {there}, но нет {lacks_of}?"), &with),
+                (format!("В каких комнатах нет {lacks_of}, но есть {there}?"), &with),
+                (format!("В каких комнатах нет {lacks_of}, зато есть {there}?"), &with),
+                (format!("В каких комнатах есть {there} и нет {lacks_of}?"), &with),
+                (format!("В каких комнатах нет {lacks_of} и есть {there}?"), &with),
+                (format!("В каких комнатах нет {lacks_of} и {there_of}?"), &neither),
+                (format!("В каких комнатах нет ни {lacks_of}, ни {there_of}?"), &neither),
+                (format!("Which rooms have {a} but no {no}?"), &with),
+                (format!("Which rooms have no {no} but have {a}?"), &with),
+                (format!("Which rooms have no {no} but {a}?"), &with),
+                (format!("Which rooms have {a} and no {no}?"), &with),
+                (format!("Which rooms have no {no} and {a}?"), &with),
+                (format!("How many rooms have no {no} but have {a}?"), &with),
+                (format!("Which rooms have no {no} and no {bare}?"), &neither),
+                (format!("Which rooms have neither {another} nor {a}?"), &neither),
+                (format!("Which rooms don't have both {another} and {a}?"), &not_both),
+            ];
+            for (line, so) in lines {
+                asked += 1;
+                let answer = engine.ask(&line, &mut Memory::default()).expect("there is a map");
+                let Ok(answer) = answer else { continue };
+                understood += 1;
+                let mut told = answer.symbols.clone();
+                told.sort();
+                let mut so: Vec<String> = so.iter().map(|room| (*room).to_owned()).collect();
+                so.sort();
+                assert_eq!(told, so, "{line}: {}", answer.text);
+            }
+        }
+    }
+    assert!(understood * 10 > asked * 8, "{understood} of {asked}");
+}
+
+/// A thing in a room that has something: the room has it, and not the thing.
+#[test]
+fn what_stands_behind_a_room_is_in_the_room() {
+    let engine = engine("maps/rb2.toml").expect("part of the crate");
+    let rooms = [("Комнате-В", "Room V"), ("Комнате-Z", "Room Z"), ("Комнате-Y", "Room Y")];
+    let things = [("стулья", "the chairs"), ("книги", "the books"), ("столы", "the tables")];
+    let kinds = [("диван", "диваном", "a sofa"), ("кровать", "кроватью", "a bed")];
+    for (things, the_things) in things {
+        for (kind, with, a) in kinds {
+            let of = |room: &str| {
+                let any = is_so(&engine, &format!("Есть ли {things} в {room}?"));
+                let has = is_so(&engine, &format!("Есть ли {kind} в {room}?"));
+                any.zip(has).expect("plain questions")
+            };
+            let all = rooms.iter().map(|(room, _)| of(room)).all(|(any, has)| !any || has);
+            let elsewhere = is_so(&engine, &format!("Есть ли {things} в Коридоре?")) == Some(true);
+            for line in [
+                format!("Все ли {things} в комнатах с {with}?"),
+                format!("Are all {the_things} in rooms with {a}?"),
+            ] {
+                let so = is_so(&engine, &line);
+                assert!(so.is_none_or(|so| so == (all && !elsewhere)), "{line}: {so:?}");
+                assert!(so.is_some(), "{line}");
+            }
+        }
+    }
+}

@@ -176,7 +176,7 @@ fn but_no(words: &Words<'_>) -> Option<String> {
         return Some(format!("Which rooms with {with} are without {without}?"));
     }
     let asked = begins(&["в каких комнатах есть", "в какой комнате есть"])?;
-    let but = words.phrase(asked, "но нет").or_else(|| words.phrase(asked, "а нет"))?;
+    let but = ["но нет", "а нет", "зато нет"].iter().find_map(|but| words.phrase(asked, but))?;
     let (with, without) = (words.part(asked..but)?, words.part(but + 2..end)?);
     let with = NounPhrase::parse(with, &WordHints::default());
     let with = with.form(Case::Instrumental, with.number());
@@ -207,6 +207,10 @@ fn in_them(words: &Words<'_>) -> Option<String> {
 fn both_of(words: &Words<'_>) -> Option<String> {
     let both = words.find(&["both"])?;
     let said = words.is(both + 1, &["a", "an"]) || of_having_rooms(words);
+    // "don't have both a bed and a desk": one of them they may have.
+    if words.find(&["t", "not"]).is_some_and(|not| not < both) {
+        return None;
+    }
     words.phrase(both, "and").filter(|_| said && both + 1 < words.keys.len())?;
     let (before, rest) =
         (&words.text[..words.at[both].start], &words.text[words.at[both + 1].start..]);

@@ -107,6 +107,8 @@ pub(super) enum Mark {
     /// «только один», "only one"
     OnlyOne,
     And,
+    /// «но», "but", between what is said and what is otherwise
+    But,
     Or,
     Than,
     All,

@@ -24,7 +24,9 @@ pub(super) fn begins_question(words: &[String]) -> bool {
     let mut at = 0;
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
-            Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
+            Mark::Filler | Mark::But | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => {
+                at += taken
+            }
             // «Можно ли сесть на кровать?» asks; «Можешь открыть дверь?» is a polite command.
             Mark::Can => {
                 // «Можно попросить тебя принести чашку?»
@@ -54,7 +56,7 @@ pub(super) fn asks_by_a_word(words: &[String]) -> bool {
     let mut at = 0;
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
-            Mark::Filler | Mark::The | Mark::And => at += taken,
+            Mark::Filler | Mark::But | Mark::The | Mark::And => at += taken,
             // What there is may be told as well: «есть кофе, принеси».
             mark => return is_asking(mark) && mark != Mark::Exists,
         }
@@ -65,7 +67,10 @@ pub(super) fn asks_by_a_word(words: &[String]) -> bool {
 /// Whether the first of these words asks by itself: no small word stands before it.
 pub(super) fn asks_at_once(words: &[String]) -> bool {
     let small = |mark| {
-        matches!(mark, Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And)
+        matches!(
+            mark,
+            Mark::Filler | Mark::But | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And
+        )
     };
     longest(words).is_some_and(|(_, mark)| !small(mark)) && begins_question(words)
 }
@@ -98,7 +103,7 @@ pub(super) fn asks_to_tell(words: &[String]) -> bool {
     let mut at = 0;
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
-            Mark::Filler | Mark::The | Mark::A | Mark::Me => at += taken,
+            Mark::Filler | Mark::But | Mark::The | Mark::A | Mark::Me => at += taken,
             mark => return matches!(mark, Mark::HowGet | Mark::List | Mark::Describe),
         }
     }

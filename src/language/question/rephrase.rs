@@ -71,8 +71,9 @@ fn locked(words: &Words<'_>) -> Option<String> {
 fn neither(words: &Words<'_>) -> Option<String> {
     let neither = words.find(&["neither"])?;
     let nor = words.find(&["nor"]).filter(|nor| *nor > neither)?;
+    // "… are neither apples nor plums" says nothing of what they have.
     let has = neither.checked_sub(1).filter(|n| words.is(*n, &["has", "have", "contains", "with"]));
-    let without = has.unwrap_or(neither)..neither + 1;
+    let without = has?..neither + 1;
     Some(words.replaced(vec![(without, "without".to_owned()), (nor..nor + 1, "or".to_owned())]))
 }
 

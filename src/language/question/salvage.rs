@@ -198,7 +198,7 @@ impl Asker<'_> {
         let thrown = &text[thrown..last];
         let says_nothing = |item: &Item| match item {
             Item::Unknown(_) => true,
-            Item::Mark(mark) => matches!(mark, Mark::Filler | Mark::You | Mark::Me),
+            Item::Mark(mark) => matches!(mark, Mark::Filler | Mark::But | Mark::You | Mark::Me),
             _ => false,
         };
         let idle = word_keys(thrown).len() <= MOST
@@ -228,6 +228,7 @@ impl Asker<'_> {
             Item::Mark(mark) => matches!(
                 mark,
                 Mark::Filler
+                    | Mark::But
                     | Mark::The
                     | Mark::And
                     | Mark::Me
@@ -246,7 +247,9 @@ impl Asker<'_> {
             _ => false,
         };
         let items = sentence.items();
-        let says = items.iter().any(|item| !matches!(item, Item::Mark(Mark::Filler | Mark::The)));
+        let says = items
+            .iter()
+            .any(|item| !matches!(item, Item::Mark(Mark::Filler | Mark::But | Mark::The)));
         (or_what || says && items.iter().all(idle)).then(|| {
             let kept = text[..words[or].start].trim_end_matches([' ', ',', '–', '—', '.', '…']);
             format!("{kept}?")
@@ -345,7 +348,13 @@ impl Asker<'_> {
                 item,
                 Item::Unknown(_)
                     | Item::Mark(
-                        Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And
+                        Mark::Filler
+                            | Mark::But
+                            | Mark::The
+                            | Mark::A
+                            | Mark::You
+                            | Mark::Me
+                            | Mark::And
                     )
             ) || matches!(item, Item::Noun(phrase) if phrase.person.is_some())
                 || begs && matches!(item, Item::Mark(Mark::Can | Mark::See | Mark::Be | Mark::Have))

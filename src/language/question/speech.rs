@@ -458,7 +458,16 @@ impl Knowledge<'_> {
                     Ok(found) if found.len() == 1 || anchor.head.things.is_some() => {
                         anchors.extend(found)
                     }
-                    _ => text = self.general_place(restriction.rel, anchor),
+                    _ => {
+                        text = self.general_place(restriction.rel, anchor);
+                        // "in the rooms with windows"
+                        let has = anchor.restrictions.iter().filter(|r| r.rel == Rel::Has).cloned();
+                        let had = Noun { restrictions: has.collect(), ..Noun::default() };
+                        let like = self.restrictions(&had);
+                        if !like.is_empty() {
+                            text = format!("{text} {like}");
+                        }
+                    }
                 }
             }
             if text.is_empty() {

@@ -186,6 +186,7 @@ const MARKS: &[Mark] = &[
     Mark::Hesitates,
     Mark::Particle,
     Mark::Corrects,
+    Mark::But,
     Mark::Filler,
 ];
 

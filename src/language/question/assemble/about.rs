@@ -132,7 +132,7 @@ impl Frame<'_, '_> {
         noun.plural = true;
         noun.indefinite = true;
         for other in self.nouns.iter().skip(1) {
-            self.relate(&mut noun, other);
+            self.relate(&mut noun, other, other.negated || self.negated);
         }
         let count = self.has(Mark::HowMany) || self.has(Mark::Count);
         Some(Query::Kinds { of: self.with_rest(noun, &[]), count })

@@ -3,7 +3,7 @@
 //! Invariant: the table is by the words' parts in a question, never by sentences. What it does not let through is said
 //! not to be understood, however well the rest of the sentence was read.
 
-use super::Frame;
+use super::{Frame, Subject};
 use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
@@ -30,6 +30,8 @@ struct Told {
     most: bool,
     /// Something stands in a relation to something.
     inward: bool,
+    /// Some of what it has is there and some is not.
+    bounded: bool,
     /// Things are sought beside things of the same kind: "trees by the trees".
     itself: bool,
     /// Something is "from" a thing that was spoken of, as no thing is.
@@ -64,6 +66,8 @@ impl Told {
         self.either |= noun.filters.iter().any(|filter| !filter.or.is_empty())
             || noun.restrictions.iter().any(|place| place.anchors.len() > 1);
         self.inward |= !noun.restrictions.is_empty();
+        let denied = noun.restrictions.iter().filter(|place| place.negated).count();
+        self.bounded |= denied > 0 && denied < noun.restrictions.len();
         let alike = |anchor: &Noun| {
             let bare = |noun: &Noun| noun.filters.is_empty() && noun.best.is_none() && !noun.other;
             !head.kinds.is_empty()
@@ -145,6 +149,16 @@ impl Frame<'_, '_> {
         let twofold = !matches!(query, Query::Anchor { .. })
             && (self.has(Mark::Which) || self.has(Mark::Where) || self.has(Mark::HowMany))
             && self.links.iter().any(governed);
+        // "Which rooms don't have both a bed and a sofa?": one of the two they may have.
+        let has = |noun: &Noun| noun.restrictions.iter().filter(|r| r.rel == Rel::Has).count();
+        let both = self.negated
+            && (self.has(Mark::All) || self.nouns.iter().any(|s| s.noun.all))
+            && matches!(query, Query::Find(noun) | Query::Count(noun) if has(noun) > 1);
+        // «В какой комнате стульев больше, чем книг?» asks for rooms.
+        let of_rooms = |s: &Subject| self.is_rooms(&s.noun) && self.follows_which(s.at);
+        let placed = |noun: &Noun| !noun.restrictions.is_empty();
+        let in_which = matches!(query, Query::MoreOf { of, .. } if !of.iter().any(placed))
+            && self.nouns.iter().any(of_rooms);
         // "Whose mug is that?" asks for an owner.
         const WHOSE: [&str; 5] = ["whose", "чей", "чья", "чье", "чьи"];
         let owner = |query: &Query| match query {
@@ -203,6 +217,8 @@ impl Frame<'_, '_> {
             || why
             || twofold
             || whose
+            || both
+            || in_which
             || one
             || here
             || supposes
@@ -602,6 +618,8 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
                         | Q::Together { .. }
                 )
         }
+        // What is not said to bound a denial bounds something that was not read.
+        Mark::But => told.bounded,
         Mark::Than | Mark::ThanTo => {
             told.beyond
                 || told.counted

@@ -227,6 +227,17 @@ impl<'s, 't> Frame<'s, 't> {
                         continue;
                     }
                     let negated = std::mem::take(&mut not);
+                    // "in a room with a window": the room has it.
+                    let before = at.checked_sub(1).filter(|_| rel == Rel::Has && !either);
+                    let room = frame.spots.iter().rposition(|spot| {
+                        Some(spot.at) == before
+                            && matches!(&spot.nouns[..], [room] if frame.is_rooms(room))
+                    });
+                    if let Some(room) = room {
+                        let place = Restriction { rel, anchors, negated };
+                        frame.spots[room].nouns[0].restrictions.push(place);
+                        continue;
+                    }
                     frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
                 }
                 // "not on anything", «ни на чём», "next to nothing"

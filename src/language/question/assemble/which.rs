@@ -9,6 +9,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Extreme, Filter, Head, Noun, Quantity, Query, Rel, Restriction, Thing,
 };
+use crate::words::Language;
 
 impl Frame<'_, '_> {
     pub(super) fn counted(&self) -> Option<Query> {
@@ -35,7 +36,7 @@ impl Frame<'_, '_> {
             && !self.is_area(&had.noun)
         {
             let mut rooms = of.nouns[0].clone();
-            self.relate(&mut rooms, had);
+            self.relate(&mut rooms, had, had.negated || self.negated);
             return Some(Query::Count(self.with_rest(rooms, &[of.at])));
         }
         let Some(counted) = counted else {
@@ -92,14 +93,15 @@ impl Frame<'_, '_> {
         if let Some(kinds_first) = Some(&mut noun.head).filter(|h| !h.kinds.is_empty()) {
             kinds_first.named.clear();
         }
-        for other in self.nouns.iter().filter(|s| s.at != counted.at) {
-            self.relate(&mut noun, other);
+        let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != counted.at).collect();
+        for (other, denied) in others.iter().zip(self.denied_of(&others)) {
+            self.relate(&mut noun, other, denied);
         }
         Some(Query::Count(self.with_rest(noun, &[])))
     }
 
     /// A second noun: what rooms have, or the room that has them.
-    pub(super) fn relate(&self, noun: &mut Noun, other: &Subject) {
+    pub(super) fn relate(&self, noun: &mut Noun, other: &Subject, denied: bool) {
         if self.is_building(&other.noun) {
             return;
         }
@@ -120,7 +122,7 @@ impl Frame<'_, '_> {
         noun.restrictions.push(Restriction {
             rel,
             anchors: vec![anchor],
-            negated: other.negated || (rel == Rel::Has && self.negated),
+            negated: other.negated || (rel == Rel::Has && denied),
         });
     }
 
@@ -338,8 +340,8 @@ impl Frame<'_, '_> {
                 );
             }
             if self.has(Mark::Have) || (self.has(Mark::Exists) && others.len() == 1) {
-                for other in &others {
-                    self.relate(&mut noun, other);
+                for (other, denied) in others.iter().zip(self.denied_of(&others)) {
+                    self.relate(&mut noun, other, denied);
                 }
             }
             let described = self.has(Mark::What)
@@ -432,6 +434,32 @@ impl Frame<'_, '_> {
             && self.marks.iter().any(|(m, a)| matches!(m, Mark::What | Mark::Which) && *a + 1 == at)
     }
 
+    /// Which of several that rooms have or lack are denied: "have a bed and no sofa", «нет кровати, но есть диван», "have no
+    /// beds and chairs". A denial goes no further than the next "but" or what is named as being there.
+    fn denied_of(&self, others: &[&Subject]) -> Vec<bool> {
+        let own = others.iter().any(|other| other.negated);
+        let mut denies = self.negated && !own;
+        let mut from = 0;
+        let mut denied = Vec::new();
+        for other in others {
+            // «но», "but"; «есть», "have" once more; "… and a sofa".
+            let bounds = |mark: &Mark| matches!(mark, Mark::But | Mark::Exists | Mark::Have);
+            let bounded =
+                self.marks.iter().any(|(mark, at)| bounds(mark) && (from..other.at).contains(at));
+            let is_there = bounded
+                || (self.sentence.language == Language::English
+                    && other.noun.indefinite
+                    && !other.noun.plural);
+            denies = match own {
+                true => other.negated || (denies && !is_there),
+                false => denies,
+            };
+            denied.push(denies);
+            from = other.at;
+        }
+        denied
+    }
+
     /// "Which rooms have a chair?"
     fn rooms_with(&self, rooms: &Noun) -> Query {
         let mut noun = rooms.clone();
@@ -451,10 +479,10 @@ impl Frame<'_, '_> {
             noun.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: self.negated });
             return Query::Find(noun);
         }
-        for other in others {
+        let denied = self.denied_of(&others);
+        for (other, negated) in others.into_iter().zip(denied) {
             let mut anchor = self.narrowed(other.noun.clone());
             anchor.indefinite = true;
-            let negated = other.negated || self.negated;
             noun.restrictions.push(Restriction { rel: Rel::Has, anchors: vec![anchor], negated });
         }
         Query::Find(noun)

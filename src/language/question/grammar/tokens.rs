@@ -33,6 +33,7 @@ impl<'t> Sentence<'t> {
             at = sentence.token(at, lexicon);
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
+        sentence.drop_idle_but();
         sentence.fill_elided();
         sentence.drop_asking_particle();
         sentence.drop_stranded();
@@ -44,6 +45,19 @@ impl<'t> Sentence<'t> {
             }
         }
         sentence
+    }
+
+    /// "But where is it?", «стол, но не красный»: what begins a sentence or comes before a denial bounds nothing.
+    fn drop_idle_but(&mut self) {
+        let but = Tok::Mark(Mark::But);
+        let denies = |t: &Token| {
+            matches!(t.kind, Tok::Mark(Mark::Not | Mark::Without | Mark::Avoiding | Mark::Except))
+        };
+        let idle = |n: usize| n == 0 || self.tokens.get(n + 1).is_none_or(denies);
+        let kept: Vec<bool> =
+            (0..self.tokens.len()).map(|n| self.tokens[n].kind != but || !idle(n)).collect();
+        let mut kept = kept.into_iter();
+        self.tokens.retain(|_| kept.next() == Some(true));
     }
 
     /// Reads the token at a word and gives the word after it.
