@@ -212,6 +212,45 @@ fn the_doors_and_rooms_that_one_goes_through_are_those_of_the_way() {
     }
 }
 
+/// The four rooms of the one lie in a ring, so that no door is needed; the other house has one way between any two.
+#[test]
+fn a_way_without_a_door_does_not_lead_through_it() {
+    let engine = rb2();
+    let frames = [
+        "Можно ли попасть из Комнаты-В в Комнату-Y, минуя {door}?",
+        "Как попасть из Комнаты-В в Комнату-Y, минуя {door}?",
+        "Как попасть из Комнаты-В в Комнату-Y не через {door}?",
+        "Can I get from Room V to Room Y without going through {door}?",
+        "Can I get from Room V to Room Y without using {door}?",
+        "How do I get from Room V to Room Y without going through {door}?",
+    ];
+    let doors = [
+        ["Дверь-ВZ", "Door VZ"],
+        ["Дверь-ZY", "Door ZY"],
+        ["Дверь-КY", "Door KY"],
+        ["Проход-ВК", "Passage VK"],
+    ];
+    for frame in frames {
+        for [door, in_english] in doors {
+            let door = if frame.is_ascii() { in_english } else { door };
+            let question = frame.replace("{door}", door);
+            let answer = ask(&engine, &question);
+            assert_ne!(answer.is_so(), Some(false), "{question}: {}", answer.text);
+            assert!(!answer.text.contains(door), "{question}: {}", answer.text);
+        }
+    }
+    let Some(engine) = crate::talk::engine("../shared/data/procthor/house_2.json") else { return };
+    for question in [
+        "Can I go from the bedroom to the kitchen without going through Door 2?",
+        "How do I get from the bathroom to the kitchen without using Door 2?",
+        "Можно ли попасть из ванной на кухню, минуя Дверь-2?",
+        "Можно ли попасть из ванной в спальню, минуя Дверь-1?",
+    ] {
+        let answer = ask(&engine, question);
+        assert_eq!(answer.is_so(), Some(false), "{question}: {}", answer.text);
+    }
+}
+
 /// Of two sets of keys neither is "they" rather than the other.
 #[test]
 fn they_that_were_named_without_choosing_are_all_of_them() {

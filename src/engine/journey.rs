@@ -6,7 +6,7 @@ use crate::geometry::{FloorPlan, Leg, Method, Opening, Remedy, Ride, Target, acr
 use crate::language::Language;
 use crate::language::question::{Crossing, RoomPath, Thing};
 use crate::language::report::{Detail, Named};
-use crate::map::{DoorState, Entity, Extent, Forms, World, Zone, ZoneKind};
+use crate::map::{Entity, Extent, Forms, World, Zone, ZoneKind};
 use crate::semantics::Thresholds;
 use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, ZoneId};
 
@@ -193,18 +193,15 @@ impl Known {
     pub(super) fn without(&self, avoided: &[Thing], wanted: Option<AreaId>) -> Result<Self, Error> {
         let mut world = self.world().clone();
         let mut rooms: Vec<AreaId> = Vec::new();
-        let mut shut: BTreeMap<DoorId, DoorState> = BTreeMap::new();
         let mut extents: Vec<Extent> = Vec::new();
         for thing in avoided {
             match *thing {
                 Thing::Entity(Entity::Area(area)) if Some(area) != wanted => rooms.push(area),
-                Thing::Entity(Entity::Door(door)) if world.doors[&door].leaves.is_empty() => {
+                // A door that is shut for now may be opened; who keeps out of its doorway does not pass.
+                Thing::Entity(Entity::Door(door)) => {
                     let floors = self.floors()?.values();
                     let own = floors.flat_map(|floor| floor.doorways_of(door));
                     extents.extend(own.map(across_doorway));
-                }
-                Thing::Entity(Entity::Door(door)) => {
-                    shut.insert(door, DoorState::LOCKED);
                 }
                 Thing::Opening(id) => {
                     let floors = self.floors()?.values();
@@ -216,11 +213,6 @@ impl Known {
         }
         if !rooms.is_empty() {
             extents.push(Extent::Areas(rooms));
-        }
-        for (door, state) in &shut {
-            if let Some(door) = world.doors.get_mut(door) {
-                door.state = *state;
-            }
         }
         let first = world.zones.keys().map(|id| id.0).max().unwrap_or(0) + 1;
         for (number, extent) in (first..).zip(extents) {
@@ -241,11 +233,8 @@ impl Known {
             world.zones.insert(id, zone);
         }
         let is_wanted = |zone: &Zone| zone.id.0 >= first || self.is_in_force(zone);
-        let floors = self.floors()?.iter().map(|(map, floor)| {
-            let floor =
-                if shut.is_empty() { floor.clone() } else { floor.with_doors(&world, &shut) };
-            (*map, floor.with_zones(&world, is_wanted))
-        });
+        let floors =
+            self.floors()?.iter().map(|(map, floor)| (*map, floor.with_zones(&world, is_wanted)));
         let floors: BTreeMap<MapId, FloorPlan> = floors.gather();
         Ok(self.driven_otherwise(world, floors))
     }
