@@ -648,3 +648,55 @@ fn stop_stops() {
     assert!(both.starts_with("Stop;Bring"), "{both}");
     assert!(heard(&engine, "Принеси Чашку-2, нет, отмена").is_none_or(|h| h == "Stop;"));
 }
+
+/// What is told to be left where it is, is no part of what is done with all of its kind: the order is the one with the
+/// exception, or is not understood.
+#[test]
+fn what_is_to_be_left_alone_is_not_done() {
+    let engine = Engine::in_memory(crate::worlds::rb2(), None).unwrap();
+    let orders = [
+        (
+            "Bring all the books to the sofa",
+            "Отнеси все книги на диван",
+            ["Book 4", "Книгу-4", "Книги-4"],
+        ),
+        (
+            "Put all the books on the bed",
+            "Положи все книги на кровать",
+            ["Book 2", "Книгу-2", "Книги-2"],
+        ),
+        ("Close all the doors", "Закрой все двери", ["Door VZ", "Дверь-ВZ", "Двери-ВZ"]),
+    ];
+    let mut understood = 0;
+    for (english, russian, [name, accusative, genitive]) in orders {
+        let without = [
+            heard(&engine, &format!("{english} except {name}")).expect("a plain order"),
+            heard(&engine, &format!("{russian}, кроме {genitive}")).expect("a plain order"),
+        ];
+        let lines = [
+            format!("{english} but leave {name} where it is."),
+            format!("{english}, but leave {name} where it is."),
+            format!("{english} and leave {name} alone."),
+            format!("{english}. Leave {name} alone."),
+            format!("{english}. Leave {name} as it is."),
+            format!("{english}, but don't touch {name}."),
+            format!("{english}, but not {name}."),
+            format!("Leave {name} where it is and {}.", english.to_lowercase().replace("vz", "VZ")),
+            format!("{russian}, но {accusative} не трогай."),
+            format!("{russian}, а {accusative} не трогай."),
+            format!("{russian}, но не трогай {accusative}."),
+            format!("{russian}, а {accusative} оставь на месте."),
+            format!("{russian}, а {accusative} оставь."),
+            format!("{russian}, но {accusative} оставь как есть."),
+            format!("{russian}. {accusative} не трогай."),
+            format!("{russian}, {accusative} пусть остаётся."),
+            format!("{russian}, кроме {genitive}."),
+        ];
+        for line in lines {
+            let Some(commands) = heard(&engine, &line) else { continue };
+            assert!(without.contains(&commands), "{line}: {commands}");
+            understood += 1;
+        }
+    }
+    assert!(understood > 20, "{understood}");
+}

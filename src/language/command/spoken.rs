@@ -41,6 +41,8 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
         (contrasted, NotMeant),
         (instead, NotMeant),
         (excluded, NotMeant),
+        // Before «а Книгу-4 оставь» gets its verb first.
+        (left_alone, NotMeant),
         (quantity::except_one, Small),
         (ellipsis::verb_first, Small),
         (ellipsis::verb_again, Small),
@@ -62,7 +64,6 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
         (going::there_and_back, Small),
         (going::without_spot, NotMeant),
         (quantity::all_at_the_end, Small),
-        (left_alone, NotMeant),
         (dashed, Small),
         (going::fetched, Small),
         (going::without_where, Small),
@@ -349,7 +350,7 @@ fn gapped(said: &Said) -> Option<String> {
 
 /// "Leave the bowl where it is and …", «другая пусть остаётся»: beside what is to be done.
 fn left_alone(said: &Said) -> Option<String> {
-    const ALONE: [&str; 28] = [
+    const ALONE: [&str; 31] = [
         "leave it",
         "leave them",
         "leave that",
@@ -366,18 +367,21 @@ fn left_alone(said: &Said) -> Option<String> {
         "as they are",
         "alone",
         "in peace",
+        "open",
+        "closed",
+        "shut",
         "пусть остается",
         "пусть останется",
         "пусть стоит",
         "пусть лежит",
         "пусть остаются",
         "не трогай",
-        "оставь",
         "оставь на месте",
         "оставь там",
         "оставь как есть",
         "оставь где стоит",
         "оставь где лежит",
+        "оставь",
     ];
     let parted = |n: usize| said.parted(n) || matches!(said.meaning(n), Some((_, Meaning::And)));
     let (at, taken) = (0..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &ALONE)?)))?;
@@ -397,9 +401,44 @@ fn left_alone(said: &Said) -> Option<String> {
         if next < said.keys.len() { said.of(&(next..said.keys.len())) } else { "" },
     );
     let orders = |part: &str| Said::new(part.to_owned()).verb_from(0).is_some();
-    (leaves && (orders(before) || orders(after))).then(|| {
-        [before, after].into_iter().filter(|p| !p.is_empty()).collect::<Vec<_>>().join(", ")
-    })
+    if !leaves || !(orders(before) || orders(after)) {
+        return None;
+    }
+    let whole = [before, after].into_iter().filter(|p| !p.is_empty()).collect::<Vec<_>>();
+    let whole = whole.join(", ");
+    // "… all the books, but leave Book 4 where it is": what is left is no part of what is done.
+    let small = |n: usize| {
+        const SMALL: [&str; 9] =
+            ["leave", "but", "just", "only", "please", "но", "а", "только", "оставь"];
+        matches!(said.meaning(n), Some((_, Meaning::And))) || said.is(n, &SMALL)
+    };
+    let from = (begin..at).find(|n| !small(*n)).unwrap_or(at);
+    const REST: [&str; 14] = [
+        "it",
+        "them",
+        "that",
+        "those",
+        "this",
+        "these",
+        "rest",
+        "other",
+        "others",
+        "ее",
+        "его",
+        "их",
+        "это",
+        "другая",
+    ];
+    let rest = (from..at).any(|n| {
+        said.is(n, &REST) || said.keys[n].starts_with("друг") || said.keys[n].starts_with("остальн")
+    });
+    match from == at || rest {
+        true => Some(whole),
+        false => {
+            let except = if english { "except" } else { "кроме" };
+            Some(format!("{whole} {except} {}", said.of(&(from..at))))
+        }
+    }
 }
 
 /// «Карандаш – на комод, книгу – на кровать»: things and whither each goes, without a verb.
