@@ -8,6 +8,8 @@ use orthoframe::engine::Memory;
 use orthoframe_language::question::{Answer, Said};
 use orthoframe_language::report::Named;
 use orthoframe_language::{Case, Language, Number};
+use orthoframe_map::World;
+use orthoframe_robot::GoalFact;
 
 use crate::files::{long, project};
 use crate::talk::engine;
@@ -269,6 +271,87 @@ fn they_are_all_that_were_told() {
         engine.ask(question, &mut memory).expect("there is a map").expect("a plain question");
         let Ok(commands) = engine.understand_in(order, &mut memory) else { continue };
         assert_eq!(commands.len(), lamps.len(), "{question} {order}: {commands:?}");
+    }
+}
+
+/// The goals of an order on a map; none where it is refused.
+fn goals(world: &World, order: &str) -> Option<Vec<GoalFact>> {
+    let engine = Engine::in_memory(world.clone(), None).expect("a map of the tests");
+    engine.perform(order, &mut |_| {}).ok().map(|answer| answer.goal)
+}
+
+/// "Get the battery and the toolbox and put them on the desk": what is taken to be put somewhere is neither handed over
+/// first nor held, whichever verbs say so.
+#[test]
+fn a_taking_is_part_of_the_placing_behind_it() {
+    let lab = World::load(project("maps/lab.toml")).unwrap();
+    let flat = crate::worlds::rb2();
+    let ends =
+        |(world, takes, things, joints, puts): (&World, &[&str], _, &[&str], &[(&str, &str)])| {
+            let things: &[(&str, &str)] = things;
+            let mut told = 0;
+            for (n, take) in takes.iter().enumerate() {
+                for (m, (put, to)) in puts.iter().enumerate() {
+                    let (named, them) = things[(n + m) % things.len()];
+                    let joint = joints[(n + m) % joints.len()];
+                    let plain =
+                        goals(world, &format!("{put} {named} {to}")).expect("a plain order");
+                    let line = format!("{take} {named}{joint}{put} {them} {to}");
+                    assert_eq!(goals(world, &line), Some(plain), "{line}");
+                    told += 1;
+                }
+            }
+            told
+        };
+    let told = ends((
+        &lab,
+        &["Get", "Take", "Grab", "Pick up", "Fetch", "Collect", "Please get", "Go and get"],
+        &[
+            ("the battery and the toolbox", "them"),
+            ("the battery", "it"),
+            ("the toolbox and the battery", "both"),
+        ],
+        &[" and ", ", then ", ", ", " and then "],
+        &[("put", "on the desk"), ("place", "on Shelf 1"), ("set", "on Workbench 1")],
+    ));
+    let said = ends((
+        &flat,
+        &["Возьми", "Забери", "Захвати", "Подними", "Собери", "Пожалуйста, возьми", "Принеси"],
+        &[
+            ("Книгу-4 и лекарство", "их"),
+            ("лекарство", "его"),
+            ("все чашки", "их"),
+            ("лекарство, Книгу-4", "их"),
+        ],
+        &[" и ", ", потом ", ", ", ", а затем "],
+        &[("поставь", "на письменный стол"), ("положи", "на Комод-1"), ("отнеси", "на диван")],
+    ));
+    assert_eq!(told + said, 24 + 21);
+}
+
+/// A list before a mark belongs to the verb before it: "Take the battery and the toolbox, go to the lab and …".
+#[test]
+fn what_is_listed_before_a_mark_goes_with_the_verb_before_it() {
+    let (lab, flat) = (World::load(project("maps/lab.toml")).unwrap(), crate::worlds::rb2());
+    for (world, one, other) in [
+        (
+            &lab,
+            "Take the battery and the toolbox, go to the lab and put them on Workbench 1",
+            "Go to the lab, put the battery on Workbench 1, put the toolbox on Workbench 1",
+        ),
+        (
+            &lab,
+            "Get the battery, go to the lab and put it on Workbench 1",
+            "Take the battery, go to the lab, put the battery on Workbench 1",
+        ),
+        (
+            &flat,
+            "Возьми лекарство и Книгу-4, поезжай в спальню и положи их на Комод-1",
+            "Поезжай в спальню, положи лекарство на Комод-1, положи Книгу-4 на Комод-1",
+        ),
+    ] {
+        assert_eq!(goals(world, one), goals(world, other), "{one}");
+        assert!(goals(world, one).is_some(), "{one}");
     }
 }
 

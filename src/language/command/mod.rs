@@ -19,6 +19,7 @@
 
 mod assemble;
 mod blame;
+mod clauses;
 mod ellipsis;
 mod gathered;
 mod going;
@@ -200,6 +201,23 @@ impl<T> Command<T> {
             | Self::SwitchOff(what)
             | Self::Find(what) => Some(what),
             _ => None,
+        }
+    }
+
+    /// Whether it says where a thing is left: put somewhere, set down, thrown away.
+    #[must_use]
+    pub fn places(&self, id: &T) -> bool
+    where
+        T: PartialEq,
+    {
+        match self {
+            Self::Put { what, .. }
+            | Self::SetDown { what, .. }
+            | Self::Bring { what, to: Some(_) }
+            | Self::PutBack(what)
+            | Self::PutAway(what)
+            | Self::ThrowAway(what) => what.id == *id,
+            _ => false,
         }
     }
 
