@@ -43,7 +43,9 @@ pub use hints::{in_time, is_command, is_order, preamble, without_clock};
 pub use misheard::Misheard;
 pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
-pub(crate) use verbs::{Sort, clauses, is_known, link_at, link_before, small_words, without_verbs};
+pub(crate) use verbs::{
+    Sort, clauses, forbids, is_known, link_at, link_before, small_words, without_verbs,
+};
 pub use verbs::{has_verb, likely_verb};
 pub use waiting::{Waiting, waiting};
 
