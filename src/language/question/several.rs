@@ -1,7 +1,7 @@
 //! Several questions in one sentence, and what people hang on a question's end.
 
 use super::mark::Mark;
-use super::vocabulary;
+use super::{opening, vocabulary};
 use crate::words::{word_keys, word_ranges};
 
 /// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.
@@ -16,7 +16,9 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
         let anew = comma && begins_anew(&keys[n..]);
         // «…, а чашек?»: the same of something else. «…, а не на полке?» only sets off.
         let goes_on = comma && keys[n] == "а" && behind.first().is_some_and(|key| key != "не");
-        (asks(&keys[..n]) && (joint || anew || goes_on)).then(|| match joint {
+        // "Is the stove on, and is it clean?" asks whether, twice.
+        let asks = asks(before) || opening::asks_at_once(before);
+        (asks && (joint || anew || goes_on)).then(|| match joint {
             true => (words[n].start, words[n].end),
             false => (words[n].start, words[n].start),
         })
@@ -187,10 +189,14 @@ fn begins(words: &[String]) -> bool {
         }
         // «… и как до него добраться?»
         Mark::How => has_mark(words, |mark| matches!(mark, Mark::Move)),
-        // "… and is it on?"
+        // "… and is it on?", "… and is the door shut?"
         Mark::Be => {
             let next = vocabulary::longest(&words[taken..]);
-            next.is_some_and(|(_, m)| matches!(m, Mark::Pronoun(_) | Mark::Anything))
+            let inverted = matches!(words[0].as_str(), "is" | "are");
+            next.is_some_and(|(_, m)| match m {
+                Mark::The => inverted,
+                m => matches!(m, Mark::Pronoun(_) | Mark::Anything),
+            })
         }
         // "there is a lamp and there is …" asks nothing new of one thing.
         Mark::Exists => words.len() > 2,
