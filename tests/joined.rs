@@ -7,7 +7,7 @@ use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_language::question::{Answer, Said};
 use orthoframe_language::report::Named;
-use orthoframe_language::{Case, Language, Number};
+use orthoframe_language::{Case, Language, Number, english};
 use orthoframe_map::World;
 use orthoframe_robot::GoalFact;
 
@@ -272,6 +272,56 @@ fn they_are_all_that_were_told() {
         let Ok(commands) = engine.understand_in(order, &mut memory) else { continue };
         assert_eq!(commands.len(), lamps.len(), "{question} {order}: {commands:?}");
     }
+}
+
+/// "Is the stove shut, and is it on?", "How many cups are there, and are there any in the kitchen?": both are answered, each
+/// as by itself; and a second one is two of them.
+#[test]
+fn of_two_questions_in_one_sentence_none_is_dropped() {
+    let (mut told, mut counted) = (0, 0);
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let text = |line: &str| ask(&engine, line).map(|answer| answer.text);
+        let world = engine.world().unwrap();
+        let devices = world.replicas.values().filter(|r| world.has_trait(r.id, "device"));
+        for name in devices.map(|device| &device.name_en) {
+            for (one, other) in [("on", "closed"), ("closed", "on"), ("clean", "on")] {
+                let alone = [one, other].map(|state| text(&format!("Is {name} {state}?")));
+                let [Some(first), Some(second)] = alone else { continue };
+                for line in [
+                    format!("Is {name} {one}, and is it {other}?"),
+                    format!("Is {name} {one} and is it {other}?"),
+                ] {
+                    let Some(both) = text(&line) else { continue };
+                    assert_eq!(both, format!("{first} {second}"), "{line}");
+                    told += 1;
+                }
+            }
+        }
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        for (n, kind) in kinds.iter().enumerate() {
+            let (many, room) = (english::plural(kind), &rooms[n % rooms.len()]);
+            let (Some(all), Some(there)) = (
+                ask(&engine, &format!("How many {many} are there?")),
+                ask(&engine, &format!("Are there any {many} in {room}?")),
+            ) else {
+                continue;
+            };
+            let line = format!("How many {many} are there and are there any in {room}?");
+            if let Some(both) = text(&line) {
+                assert!(both.starts_with(&all.text), "{line}: {both}");
+                let says_yes = both.contains(" Yes, ");
+                assert_eq!(says_yes, there.said == Said::Yes, "{line}: {both}");
+                counted += 1;
+            }
+            let second = ask(&engine, &format!("Is there a second {kind}?"));
+            if let (Some(second), Some(number)) = (second, all.number) {
+                assert_eq!(second.said == Said::Yes, number > 1.0, "{kind}: {}", second.text);
+                counted += 1;
+            }
+        }
+    }
+    assert!(told > 10 && counted > 20, "{told} {counted}");
 }
 
 /// The goals of an order on a map; none where it is refused.

@@ -213,9 +213,12 @@ fn excluded(said: &Said) -> Option<String> {
         let other = match link {
             Some((_, link)) => says_place(link, goes),
             None => {
-                let articles = said.phrase(told.start, &["the", "a", "an"]).unwrap_or(0);
-                let named = told.start + articles..told.end;
+                // "not past the bedroom" names nothing yet.
+                let article = said.phrase(told.start, &["the", "a", "an"]);
+                let named = told.start + article.unwrap_or(0)..told.end;
+                let is_name = |text: &str| text.starts_with(char::is_uppercase);
                 !named.is_empty()
+                    && (article.is_some() || is_name(said.of(&named)))
                     && named.clone().all(|n| said.meaning(n).is_none())
                     && Language::of(said.of(&named)) == Language::English
             }

@@ -88,7 +88,7 @@ pub(super) fn asks_outright(text: &str) -> bool {
                     let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
                     taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))
                 }
-                Some((_, mark)) => is_asking(mark),
+                Some((_, mark)) => mark.asks(),
                 None => false,
             }
     })
@@ -103,7 +103,7 @@ pub(super) fn seeks(text: &str) -> bool {
     }
     let marks = || (0..keys.len()).filter_map(|n| vocabulary::longest(&keys[n..]).map(|(_, m)| m));
     marks().any(|mark| mark == Mark::Where)
-        && marks().all(|mark| mark == Mark::Where || !is_asking(mark))
+        && marks().all(|mark| mark == Mark::Where || !mark.asks())
 }
 
 /// The sentences of a line: a mark that ends one, a blank, and a capital.
@@ -129,25 +129,8 @@ fn is_joint(key: &str) -> bool {
     matches!(key, "и" | "а" | "and" | "but")
 }
 
-pub(super) fn is_asking(mark: Mark) -> bool {
-    matches!(
-        mark,
-        Mark::Where
-            | Mark::What
-            | Mark::Which
-            | Mark::HowMany
-            | Mark::HowFar
-            | Mark::HowGet
-            | Mark::HowBig(_)
-            | Mark::When
-            | Mark::Exists
-            | Mark::Who
-            | Mark::Whither
-    )
-}
-
 fn asks(words: &[String]) -> bool {
-    has_mark(words, is_asking)
+    has_mark(words, Mark::asks)
 }
 
 fn has_mark(words: &[String], wanted: fn(Mark) -> bool) -> bool {
@@ -200,7 +183,7 @@ fn begins(words: &[String]) -> bool {
         }
         // "there is a lamp and there is …" asks nothing new of one thing.
         Mark::Exists => words.len() > 2,
-        mark => is_asking(mark) && (words.len() > 1 || mark == Mark::Where),
+        mark => mark.asks() && (words.len() > 1 || mark == Mark::Where),
     }
 }
 
