@@ -7,7 +7,9 @@ use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_language::question::{Answer, Said};
 use orthoframe_language::report::Named;
-use orthoframe_language::{Case, Language, Number};
+use orthoframe_language::{Case, Language, Number, english};
+use orthoframe_map::World;
+use orthoframe_robot::GoalFact;
 
 use crate::files::{long, project};
 use crate::talk::engine;
@@ -269,6 +271,137 @@ fn they_are_all_that_were_told() {
         engine.ask(question, &mut memory).expect("there is a map").expect("a plain question");
         let Ok(commands) = engine.understand_in(order, &mut memory) else { continue };
         assert_eq!(commands.len(), lamps.len(), "{question} {order}: {commands:?}");
+    }
+}
+
+/// "Is the stove shut, and is it on?", "How many cups are there, and are there any in the kitchen?": both are answered, each
+/// as by itself; and a second one is two of them.
+#[test]
+fn of_two_questions_in_one_sentence_none_is_dropped() {
+    let (mut told, mut counted) = (0, 0);
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let text = |line: &str| ask(&engine, line).map(|answer| answer.text);
+        let world = engine.world().unwrap();
+        let devices = world.replicas.values().filter(|r| world.has_trait(r.id, "device"));
+        for name in devices.map(|device| &device.name_en) {
+            for (one, other) in [("on", "closed"), ("closed", "on"), ("clean", "on")] {
+                let alone = [one, other].map(|state| text(&format!("Is {name} {state}?")));
+                let [Some(first), Some(second)] = alone else { continue };
+                for line in [
+                    format!("Is {name} {one}, and is it {other}?"),
+                    format!("Is {name} {one} and is it {other}?"),
+                ] {
+                    let Some(both) = text(&line) else { continue };
+                    assert_eq!(both, format!("{first} {second}"), "{line}");
+                    told += 1;
+                }
+            }
+        }
+        let (rooms, kinds) = rooms_and_kinds(&engine);
+        for (n, kind) in kinds.iter().enumerate() {
+            let (many, room) = (english::plural(kind), &rooms[n % rooms.len()]);
+            let (Some(all), Some(there)) = (
+                ask(&engine, &format!("How many {many} are there?")),
+                ask(&engine, &format!("Are there any {many} in {room}?")),
+            ) else {
+                continue;
+            };
+            let line = format!("How many {many} are there and are there any in {room}?");
+            if let Some(both) = text(&line) {
+                assert!(both.starts_with(&all.text), "{line}: {both}");
+                let says_yes = both.contains(" Yes, ");
+                assert_eq!(says_yes, there.said == Said::Yes, "{line}: {both}");
+                counted += 1;
+            }
+            let second = ask(&engine, &format!("Is there a second {kind}?"));
+            if let (Some(second), Some(number)) = (second, all.number) {
+                assert_eq!(second.said == Said::Yes, number > 1.0, "{kind}: {}", second.text);
+                counted += 1;
+            }
+        }
+    }
+    assert!(told > 10 && counted > 20, "{told} {counted}");
+}
+
+/// The goals of an order on a map; none where it is refused.
+fn goals(world: &World, order: &str) -> Option<Vec<GoalFact>> {
+    let engine = Engine::in_memory(world.clone(), None).expect("a map of the tests");
+    engine.perform(order, &mut |_| {}).ok().map(|answer| answer.goal)
+}
+
+/// "Get the battery and the toolbox and put them on the desk": what is taken to be put somewhere is neither handed over
+/// first nor held, whichever verbs say so.
+#[test]
+fn a_taking_is_part_of_the_placing_behind_it() {
+    let lab = World::load(project("maps/lab.toml")).unwrap();
+    let flat = crate::worlds::rb2();
+    let ends =
+        |(world, takes, things, joints, puts): (&World, &[&str], _, &[&str], &[(&str, &str)])| {
+            let things: &[(&str, &str)] = things;
+            let mut told = 0;
+            for (n, take) in takes.iter().enumerate() {
+                for (m, (put, to)) in puts.iter().enumerate() {
+                    let (named, them) = things[(n + m) % things.len()];
+                    let joint = joints[(n + m) % joints.len()];
+                    let plain =
+                        goals(world, &format!("{put} {named} {to}")).expect("a plain order");
+                    let line = format!("{take} {named}{joint}{put} {them} {to}");
+                    assert_eq!(goals(world, &line), Some(plain), "{line}");
+                    told += 1;
+                }
+            }
+            told
+        };
+    let told = ends((
+        &lab,
+        &["Get", "Take", "Grab", "Pick up", "Fetch", "Collect", "Please get", "Go and get"],
+        &[
+            ("the battery and the toolbox", "them"),
+            ("the battery", "it"),
+            ("the toolbox and the battery", "both"),
+        ],
+        &[" and ", ", then ", ", ", " and then "],
+        &[("put", "on the desk"), ("place", "on Shelf 1"), ("set", "on Workbench 1")],
+    ));
+    let said = ends((
+        &flat,
+        &["Возьми", "Забери", "Захвати", "Подними", "Собери", "Пожалуйста, возьми", "Принеси"],
+        &[
+            ("Книгу-4 и лекарство", "их"),
+            ("лекарство", "его"),
+            ("все чашки", "их"),
+            ("лекарство, Книгу-4", "их"),
+        ],
+        &[" и ", ", потом ", ", ", ", а затем "],
+        &[("поставь", "на письменный стол"), ("положи", "на Комод-1"), ("отнеси", "на диван")],
+    ));
+    assert_eq!(told + said, 24 + 21);
+}
+
+/// A list before a mark belongs to the verb before it: "Take the battery and the toolbox, go to the lab and …".
+#[test]
+fn what_is_listed_before_a_mark_goes_with_the_verb_before_it() {
+    let (lab, flat) = (World::load(project("maps/lab.toml")).unwrap(), crate::worlds::rb2());
+    for (world, one, other) in [
+        (
+            &lab,
+            "Take the battery and the toolbox, go to the lab and put them on Workbench 1",
+            "Go to the lab, put the battery on Workbench 1, put the toolbox on Workbench 1",
+        ),
+        (
+            &lab,
+            "Get the battery, go to the lab and put it on Workbench 1",
+            "Take the battery, go to the lab, put the battery on Workbench 1",
+        ),
+        (
+            &flat,
+            "Возьми лекарство и Книгу-4, поезжай в спальню и положи их на Комод-1",
+            "Поезжай в спальню, положи лекарство на Комод-1, положи Книгу-4 на Комод-1",
+        ),
+    ] {
+        assert_eq!(goals(world, one), goals(world, other), "{one}");
+        assert!(goals(world, one).is_some(), "{one}");
     }
 }
 

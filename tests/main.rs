@@ -4,6 +4,7 @@ mod accounted;
 mod agreement;
 mod architecture;
 mod assembly;
+mod bounded;
 mod broken_scenarios;
 mod chatter;
 mod cli;

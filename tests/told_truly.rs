@@ -381,3 +381,61 @@ fn a_step_says_where_a_thing_is_put_as_it_was_ordered() {
         assert_eq!(told.directive_in_words(world, Language::English), said, "{order}");
     }
 }
+
+/// "Is it in the fridge?" of what stands on the fridge: where it is told to be, there it is, and nowhere else.
+#[test]
+fn what_stands_on_a_container_is_not_in_it() {
+    let mut told = [0; 2];
+    for map in ["procthor/house_5.json", "virtualhome/TestScene3_graph.json"] {
+        let Some(file) = shared(&format!("data/{map}")) else { return };
+        let dir = tempfile::tempdir().unwrap();
+        let mut engine = Engine::open(&dir.path().join("store"), None).expect("a new store");
+        engine.import(&file, &change()).expect("the map is sound");
+        if map.starts_with("procthor") {
+            drive(&mut engine, "Put the apple on the fridge");
+            drive(&mut engine, "Put the plate in the fridge");
+        }
+        let world = engine.world().unwrap();
+        for thing in world.replicas.values().filter(|r| world.has_trait(r.id, "portable")) {
+            let thing = &thing.name_en;
+            let place = format!("{} ", ask(&engine, &format!("Where is {thing}?")).text);
+            let place = place.replace('.', " ");
+            let lies =
+                |rel: &str, id| place.contains(&format!(" {rel} {} ", world.replicas[&id].name_en));
+            let container =
+                |id: &_| world.has_trait(*id, "container") && !world.has_trait(*id, "shelves");
+            let borne = world.replicas.keys().filter(|id| container(id));
+            let Some(&support) = borne.clone().find(|id| lies("in", **id) || lies("on", **id))
+            else {
+                continue;
+            };
+            let (is_in, support) = (lies("in", support), &world.replicas[&support].name_en);
+            for (rel, holds) in [("in", is_in), ("on", !is_in)] {
+                let answer = ask(&engine, &format!("Is {thing} {rel} {support}?"));
+                let said = if holds { Said::Yes } else { Said::No };
+                assert_eq!(answer.said, said, "{place} {rel} {support}: {}", answer.text);
+            }
+            told[usize::from(is_in)] += 1;
+        }
+    }
+    assert!(told.iter().all(|told| *told > 0), "{told:?}");
+}
+
+/// Books in a bookcase are on its shelves.
+#[test]
+fn what_is_in_a_bookcase_is_on_shelves() {
+    let Some(engine) = crate::talk::engine("../shared/data/virtualhome/TestScene3_graph.json")
+    else {
+        return;
+    };
+    for (on, off) in [
+        ("Which books are on shelves?", "Which books are not on shelves?"),
+        ("Какие книги на полках?", "Какие книги не на полках?"),
+    ] {
+        let (on, off) = (names(&engine, on), names(&engine, off));
+        assert!(on.is_disjoint(&off), "{on:?} {off:?}");
+        assert_eq!(on.len() + off.len(), names(&engine, "Where are the books?").len());
+        assert!(on.len() > 10, "{on:?}");
+    }
+    assert_eq!(ask(&engine, "Is Book 1 on a shelf?").said, Said::Yes);
+}

@@ -28,14 +28,7 @@ impl State {
         let mut goals: Vec<Vec<GoalFact>> = Vec::new();
         let mut joined: Vec<&Command<Entity>> = Vec::new();
         for (n, command) in commands.iter().enumerate() {
-            // "Fetch the book and put it on the shelf": it is not handed over in between.
-            if let (Command::Bring { what, to: None }, Some(Command::Put { what: next, .. })) =
-                (command, commands.get(n + 1))
-                && what.id == next.id
-            {
-                continue;
-            }
-            if is_only_gathered(commands, n) {
+            if is_part_of_what_follows(commands, n) {
                 continue;
             }
             // «Возьми тарелку и верни на место», «… и убери»: it lies there now, and will not then.
@@ -510,20 +503,28 @@ fn fact(predicate: &str, args: Vec<String>) -> GoalFact {
     GoalFact { predicate: predicate.to_owned(), args }
 }
 
-/// «Собери все чашки и поставь их на стол»: several things, of which the hand holds one, are taken as each is brought to
-/// where it is to go.
-fn is_only_gathered(commands: &[Command<Entity>], at: usize) -> bool {
-    let taken = |n: usize| match commands.get(n) {
-        Some(Command::Take { what }) => Some(what.id),
-        _ => None,
+/// Whether a thing is taken, or brought to who speaks, only to be put where it is said next: "Get the milk and the eggs and
+/// put them in the fridge" is one deed. What is done between the two divides it, but for several things, of which the
+/// hand holds one; and what is put back is taken first, since it may lie there already.
+fn is_part_of_what_follows(commands: &[Command<Entity>], at: usize) -> bool {
+    let is_taken = |command: &Command<Entity>| {
+        matches!(command, Command::Take { .. } | Command::Bring { to: None, .. })
     };
-    let Some(id) = taken(at) else { return false };
-    let several = taken(at + 1).is_some() || at.checked_sub(1).and_then(taken).is_some();
-    let goes_on = |command: &Command<Entity>| match command {
-        Command::Put { what, .. } | Command::Bring { what, .. } => what.id == id,
-        _ => false,
+    let Some(id) = commands.get(at).filter(|command| is_taken(command)).and_then(thing_of) else {
+        return false;
     };
-    several && commands[at + 1..].iter().any(goes_on)
+    let is_back = |c: &Command<Entity>| matches!(c, Command::PutBack(_) | Command::PutAway(_));
+    let is_brought = |c: &Command<Entity>| match c {
+        Command::Bring { what, to: None } => what.id == id,
+        _ => c.places(&id) && !is_back(c),
+    };
+    let Some(placed) = commands[at + 1..].iter().position(is_brought) else { return false };
+    let between = &commands[at + 1..][..placed];
+    let divides = |command: &Command<Entity>| {
+        !is_taken(command) && !command.what().is_some_and(|what| command.places(&what.id))
+    };
+    let several = between.first().into_iter().chain(at.checked_sub(1).map(|n| &commands[n]));
+    !between.iter().any(divides) || several.into_iter().any(is_taken)
 }
 
 /// Whether two commands one after the other ask for the same to be done to different things: then their order is

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::hash::Hash;
 use std::ops::Range;
 
+use super::clauses::{Clause, clauses};
 use super::grammar::{Argument, Item, Reference, Sentence, items};
 use super::roles::{cases_after, choose, direction, question, within};
 use super::vocabulary::{Haunt, Role, Verb};
@@ -50,92 +51,35 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             return Err(Misheard::Forbidden { text: self.source(), at });
         }
         let mut commands = Vec::new();
-        for clause in clauses(items) {
+        let mut fetched = Vec::new();
+        for clause in clauses(self.sentence, items) {
             for command in self.clause(&clause)? {
                 match (commands.last_mut(), command) {
                     // "Drive into the kitchen and face the window"
                     (Some(Command::GoTo { facing: facing @ None, .. }), Command::Face(seen)) => {
                         *facing = Some(seen);
                     }
-                    (_, command) => commands.push(command),
+                    (_, command) => {
+                        if matches!(command, Command::Bring { to: None, .. }) && !clause.is_for_me()
+                        {
+                            fetched.push(commands.len());
+                        }
+                        commands.push(command);
+                    }
                 }
+            }
+        }
+        // "Get the milk and put it in the fridge": it is got only to be put there.
+        for at in fetched {
+            let [command, later @ ..] = &mut commands[at..] else { continue };
+            if let Command::Bring { what, .. } = command
+                && later.iter().any(|next| next.places(&what.id))
+            {
+                *command = Command::Take { what: what.clone() };
             }
         }
         Ok(commands)
     }
-}
-
-/// One verb and what belongs to it.
-pub(super) struct Clause<'i, 's, T> {
-    verb: Option<(Verb, &'i Range<usize>)>,
-    pub(super) before: Vec<&'i Argument<'s, T>>,
-    after: Vec<&'i Argument<'s, T>>,
-    dangling: Option<&'i Range<usize>>,
-    with_key: bool,
-    on_floor: bool,
-    to_wall: bool,
-    haunt: Option<Haunt>,
-    /// Whether each argument without a preposition stands behind «и».
-    listed: bool,
-}
-
-/// Cuts the items before a second verb: at the «и» between the two, if the objects stand before their verbs.
-fn clauses<'i, 's, T>(items: &'i [Item<'s, T>]) -> Vec<Clause<'i, 's, T>> {
-    let is_verb = |item: &Item<'_, T>| matches!(item, Item::Verb(verb, _) if *verb != Verb::Need);
-    let mut starts = vec![0];
-    let mut seen_verb = false;
-    let mut conjunction = None;
-    for (at, item) in items.iter().enumerate() {
-        match item {
-            Item::And if seen_verb => conjunction = Some(at),
-            item if is_verb(item) => {
-                if seen_verb {
-                    starts.push(conjunction.take().unwrap_or(at));
-                }
-                seen_verb = true;
-            }
-            _ => {}
-        }
-    }
-    starts.push(items.len());
-    starts.windows(2).map(|bounds| clause(&items[bounds[0]..bounds[1]])).collect()
-}
-
-fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
-    let mut clause = Clause {
-        verb: None,
-        before: vec![],
-        after: vec![],
-        dangling: None,
-        with_key: false,
-        on_floor: false,
-        to_wall: false,
-        haunt: None,
-        listed: true,
-    };
-    for (at, item) in items.iter().enumerate() {
-        // "the sofa and the bed"
-        let mut before = items[..at].iter().rev().skip_while(|item| matches!(item, Item::Filler));
-        let mut joined = || matches!(before.next(), Some(Item::And));
-        if let Item::Argument(Argument { link: None, .. }) = item {
-            clause.listed &= joined();
-        }
-        match item {
-            // «мне нужно принести»: the real verb wins.
-            Item::Verb(verb, words) if clause.verb.is_none_or(|(other, _)| other == Verb::Need) => {
-                clause.verb = Some((*verb, words));
-            }
-            Item::Argument(argument) if clause.verb.is_some() => clause.after.push(argument),
-            Item::Argument(argument) => clause.before.push(argument),
-            Item::Dangling(words) => clause.dangling = Some(words),
-            Item::WithKey => clause.with_key = true,
-            Item::OnFloor => clause.on_floor = true,
-            Item::FacingWall => clause.to_wall = true,
-            Item::Haunt(haunt) => clause.haunt = Some(*haunt),
-            Item::Verb(..) | Item::And | Item::Not(_) | Item::Filler => {}
-        }
-    }
-    clause
 }
 
 pub(super) struct Reader<'r, 't, T> {

@@ -5,7 +5,8 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use super::Misheard;
-use super::assemble::{Clause, Reader};
+use super::assemble::Reader;
+use super::clauses::Clause;
 use super::grammar::{Argument, Reference};
 use super::vocabulary::verbs;
 use crate::units::{OwnText, Source, nearest_name};

@@ -111,7 +111,9 @@ pub fn preamble(sentence: &str) -> Option<(&str, &str)> {
         "сразу",
     ];
     let first = word_keys(sentence).into_iter().next();
-    if is_order(sentence) || first.is_some_and(|word| WHEN.contains(&word.as_str())) {
+    // "Don't go through the hall, go to …": what is forbidden is told as a bound of the order.
+    let bounds = verbs::forbids(&gathered(sentence));
+    if is_order(sentence) || bounds || first.is_some_and(|word| WHEN.contains(&word.as_str())) {
         return None;
     }
     let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);

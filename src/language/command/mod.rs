@@ -19,6 +19,7 @@
 
 mod assemble;
 mod blame;
+mod clauses;
 mod ellipsis;
 mod gathered;
 mod going;
@@ -42,7 +43,9 @@ pub use hints::{in_time, is_command, is_order, preamble, without_clock};
 pub use misheard::Misheard;
 pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
-pub(crate) use verbs::{Sort, clauses, is_known, link_at, link_before, small_words, without_verbs};
+pub(crate) use verbs::{
+    Sort, clauses, forbids, is_known, link_at, link_before, small_words, without_verbs,
+};
 pub use verbs::{has_verb, likely_verb};
 pub use waiting::{Waiting, waiting};
 
@@ -200,6 +203,23 @@ impl<T> Command<T> {
             | Self::SwitchOff(what)
             | Self::Find(what) => Some(what),
             _ => None,
+        }
+    }
+
+    /// Whether it says where a thing is left: put somewhere, set down, thrown away.
+    #[must_use]
+    pub fn places(&self, id: &T) -> bool
+    where
+        T: PartialEq,
+    {
+        match self {
+            Self::Put { what, .. }
+            | Self::SetDown { what, .. }
+            | Self::Bring { what, to: Some(_) }
+            | Self::PutBack(what)
+            | Self::PutAway(what)
+            | Self::ThrowAway(what) => what.id == *id,
+            _ => false,
         }
     }
 

@@ -10,7 +10,9 @@ use super::quantity;
 use super::said::{Said, is_adjective};
 use super::states::STATES;
 use super::time;
+use super::verbs::Sort;
 use super::vocabulary::{Meaning, Role, Verb};
+use crate::command::Relation;
 use crate::words::Language;
 
 /// What a rewriting may leave out.
@@ -124,11 +126,16 @@ fn without_forbidden(said: &Said) -> Option<String> {
         return Some(said.with(&(at..next + 1), said.of(&(next..next + 1))));
     }
     let (taken, Meaning::Not) = said.meaning(at)? else { return None };
-    let (verb, ..) = said.verb_from(at + taken)?;
+    let (verb, _, forbidden) = said.verb_from(at + taken)?;
     let end = said.clause_end(verb);
-    let (next, ..) = said.verb_from(end)?;
+    let (next, _, ordered) = said.verb_from(end)?;
     let forbidden_too = (end..next).any(|n| matches!(said.meaning(n), Some((_, Meaning::Not))));
-    (!forbidden_too).then(|| said.with(&(at..next + 1), said.of(&(next..next + 1))))
+    // «Не открывай дверь, поезжай на кухню», "don't go through the hall, go …" bound how that is done.
+    let bounds = Sort::of(forbidden) == Sort::Door && Sort::of(ordered) != Sort::Door
+        || (verb..end).any(
+            |n| matches!(said.meaning(n), Some((_, Meaning::Link(link))) if link.role == Role::Via),
+        );
+    (!forbidden_too && !bounds).then(|| said.with(&(at..next + 1), said.of(&(next..next + 1))))
 }
 
 /// «не красную чашку, а белую», "not to the kitchen but to the bedroom": the second of two, with the noun of the first.
@@ -174,7 +181,7 @@ fn instead(said: &Said) -> Option<String> {
 
 /// "the cup, not the red one", «чашку, только не красную»: all but that.
 fn excluded(said: &Said) -> Option<String> {
-    const BUT_NOT: [&str; 3] = ["but not", "только не", "но не"];
+    const BUT_NOT: [&str; 5] = ["but not", "and not", "только не", "но не", "а не"];
     const NOT: [&str; 2] = ["not", "не"];
     let not = |n: usize| said.phrase(n, &NOT).filter(|_| said.parted(n));
     let (at, taken) = (2..said.keys.len())
@@ -201,9 +208,23 @@ fn excluded(said: &Said) -> Option<String> {
         text.replace_range(said.words[at - 1].end..said.words[end - 1].end, &out);
         return Some(text);
     }
-    // "to me, not to the kitchen", "go to the desk, not the workbench": the other place is merely not meant.
+    // "to me, not to the kitchen", "go to the desk, not the workbench": the other place is merely not meant. Through
+    // which not to go, and how near, is a bound of its own.
     if goes || link.is_some() {
-        return Some(said.without(&(at..end)));
+        let other = match link {
+            Some((_, link)) => says_place(link, goes),
+            None => {
+                // "not past the bedroom" names nothing yet.
+                let article = said.phrase(told.start, &["the", "a", "an"]);
+                let named = told.start + article.unwrap_or(0)..told.end;
+                let is_name = |text: &str| text.starts_with(char::is_uppercase);
+                !named.is_empty()
+                    && (article.is_some() || is_name(said.of(&named)))
+                    && named.clone().all(|n| said.meaning(n).is_none())
+                    && Language::of(said.of(&named)) == Language::English
+            }
+        };
+        return other.then(|| said.without(&(at..end)));
     }
     // "the bowl from the table, not the one from the bed": told by its own place already.
     let link = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(link))) if link.role != Role::Whither);
@@ -221,6 +242,18 @@ fn excluded(said: &Said) -> Option<String> {
     let mut text = said.text.clone();
     text.replace_range(from..said.words[end - 1].end, &format!(" {except} {}", said.of(&told)));
     Some(text)
+}
+
+/// Whether a preposition tells where something ends up, and not through what or how near.
+fn says_place(link: Meaning, goes: bool) -> bool {
+    let Meaning::Link(link) = link else { return false };
+    let is_goal = matches!(link.relation, Relation::At | Relation::In | Relation::On);
+    match link.role {
+        Role::Whither => true,
+        Role::Whence => !goes,
+        Role::WhereOrWhither | Role::Where => is_goal,
+        Role::Via => false,
+    }
 }
 
 /// «заезжая», «не глядя», «закрыв», "entering": by its ending, where a thing left out would stand.
@@ -470,6 +503,12 @@ mod tests {
         for (said, order) in [
             ("Don't go to the kitchen, go to the bedroom", "go to the bedroom"),
             ("Не надо вилку, принеси ложку", "принеси ложку"),
+            (
+                "Don't go through the hall, go to the bedroom",
+                "Don't go through the hall, go to the bedroom",
+            ),
+            ("Go to the bedroom, but not via the hall", "Go to the bedroom, but not via the hall"),
+            ("Принеси книгу из зала, а не из спальни", "Принеси книгу из зала"),
             ("Поезжай на кухню и остановись у стола", "Поезжай на кухню и встань у стола"),
             ("Не открывай дверь, а закрой её", "закрой её"),
             ("Принеси не красную чашку, а белую", "Принеси белую чашку"),

@@ -233,7 +233,7 @@ fn tells_of_the_past(keys: &[String], at: usize) -> bool {
 }
 
 /// Whether a text begins with what is not to be done: «не открывай дверь», "don't go there".
-pub(super) fn forbids(text: &str) -> bool {
+pub(crate) fn forbids(text: &str) -> bool {
     let words = word_ranges(text);
     let keys = keys_of(text, &words[..words.len().min(14)]);
     let (mut at, mut forbids) = (0, false);

@@ -76,8 +76,7 @@ fn begins_clause(before: &str, behind: &str) -> bool {
     let of_me = |key: &String| matches!(key.as_str(), "я" | "мы" | "i" | "we");
     let tells = word_keys(before).iter().any(|key| of_me(key) || is_first_person(key));
     let whether = keys.get(1).is_some_and(|key| key == "ли");
-    let asks = vocabulary::longest(&keys)
-        .is_some_and(|(_, mark)| several::is_asking(mark) && keys[0] != "есть");
+    let asks = vocabulary::longest(&keys).is_some_and(|(_, mark)| mark.asks() && keys[0] != "есть");
     !several::asks_in(before) && (tells || asks || whether)
 }
 

@@ -171,6 +171,26 @@ pub(super) enum Mark {
     Filler,
 }
 
+impl Mark {
+    /// Whether a word asks for something, or whether there is something.
+    pub(super) fn asks(self) -> bool {
+        matches!(
+            self,
+            Self::Where
+                | Self::What
+                | Self::Which
+                | Self::HowMany
+                | Self::HowFar
+                | Self::HowGet
+                | Self::HowBig(_)
+                | Self::When
+                | Self::Exists
+                | Self::Who
+                | Self::Whither
+        )
+    }
+}
+
 /// Whom a pronoun may mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pronoun {

@@ -2,7 +2,6 @@
 
 use super::mark::Mark;
 use super::query::Rel;
-use super::several::is_asking;
 use super::vocabulary::longest;
 use crate::words::word_keys;
 
@@ -58,7 +57,7 @@ pub(super) fn asks_by_a_word(words: &[String]) -> bool {
         match mark {
             Mark::Filler | Mark::But | Mark::The | Mark::And => at += taken,
             // What there is may be told as well: «есть кофе, принеси».
-            mark => return is_asking(mark) && mark != Mark::Exists,
+            mark => return mark.asks() && mark != Mark::Exists,
         }
     }
     false

@@ -49,7 +49,9 @@ impl Asker<'_> {
             // "Are there any left?" has no lift in it.
             let mistyped = mistyped && !vocabulary::is_in_a_phrase(key);
             let word = self.mind.lexicon.nouns.respelt(key).filter(|_| mistyped);
-            if let Some(word) = word.filter(|word| is_slip(key, &word.to_lowercase())) {
+            // «Coke» is no slip of "coe".
+            let is_long = |word: &str| word.chars().count() >= SHORTEST;
+            if let Some(word) = word.filter(|w| is_long(w) && is_slip(key, &w.to_lowercase())) {
                 mended.replace_range(words[at].clone(), &word);
                 any = true;
             }

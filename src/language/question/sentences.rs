@@ -11,6 +11,11 @@ use super::{
 use crate::command::is_too_long;
 use crate::words::{Language, word_keys};
 
+/// Whether a question was understood, and means several things or one that the map has not.
+fn lacks_a_thing(doubt: &Doubt) -> bool {
+    matches!(doubt, Doubt::Ambiguous { .. } | Doubt::NoneSuch { .. })
+}
+
 impl Asker<'_> {
     /// «Где ваза и какого она цвета?»: two questions in one sentence, the second knowing the first. None where the
     /// sentence is one question, or one of its parts has no answer.
@@ -63,6 +68,19 @@ impl Asker<'_> {
                                 return Some(Err(unanswered));
                             }
                             None if goes_on => return Some(Err(unanswered)),
+                            // "How many chairs are there and where is the cup?" of several cups: the first is answered all
+                            // the same, and what the second lacks is told.
+                            None if n > 0
+                                && n + 1 == parts.len()
+                                && lacks_a_thing(&unanswered.0) =>
+                            {
+                                let knowledge = self.knowledge(language, &after);
+                                let doubt = knowledge.unanswered(unanswered.0).text;
+                                let mut answer = Answer::joined(answers, language);
+                                answer.text = format!("{} {doubt}", answer.text);
+                                *memory = after;
+                                return Some(Ok(answer));
+                            }
                             None => return None,
                         }
                     }

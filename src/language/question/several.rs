@@ -1,7 +1,7 @@
 //! Several questions in one sentence, and what people hang on a question's end.
 
 use super::mark::Mark;
-use super::vocabulary;
+use super::{opening, vocabulary};
 use crate::words::{word_keys, word_ranges};
 
 /// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.
@@ -16,7 +16,9 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
         let anew = comma && begins_anew(&keys[n..]);
         // «…, а чашек?»: the same of something else. «…, а не на полке?» only sets off.
         let goes_on = comma && keys[n] == "а" && behind.first().is_some_and(|key| key != "не");
-        (asks(&keys[..n]) && (joint || anew || goes_on)).then(|| match joint {
+        // "Is the stove on, and is it clean?" asks whether, twice.
+        let asks = asks(before) || opening::asks_at_once(before);
+        (asks && (joint || anew || goes_on)).then(|| match joint {
             true => (words[n].start, words[n].end),
             false => (words[n].start, words[n].start),
         })
@@ -86,7 +88,7 @@ pub(super) fn asks_outright(text: &str) -> bool {
                     let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
                     taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))
                 }
-                Some((_, mark)) => is_asking(mark),
+                Some((_, mark)) => mark.asks(),
                 None => false,
             }
     })
@@ -101,7 +103,7 @@ pub(super) fn seeks(text: &str) -> bool {
     }
     let marks = || (0..keys.len()).filter_map(|n| vocabulary::longest(&keys[n..]).map(|(_, m)| m));
     marks().any(|mark| mark == Mark::Where)
-        && marks().all(|mark| mark == Mark::Where || !is_asking(mark))
+        && marks().all(|mark| mark == Mark::Where || !mark.asks())
 }
 
 /// The sentences of a line: a mark that ends one, a blank, and a capital.
@@ -127,25 +129,8 @@ fn is_joint(key: &str) -> bool {
     matches!(key, "и" | "а" | "and" | "but")
 }
 
-pub(super) fn is_asking(mark: Mark) -> bool {
-    matches!(
-        mark,
-        Mark::Where
-            | Mark::What
-            | Mark::Which
-            | Mark::HowMany
-            | Mark::HowFar
-            | Mark::HowGet
-            | Mark::HowBig(_)
-            | Mark::When
-            | Mark::Exists
-            | Mark::Who
-            | Mark::Whither
-    )
-}
-
 fn asks(words: &[String]) -> bool {
-    has_mark(words, is_asking)
+    has_mark(words, Mark::asks)
 }
 
 fn has_mark(words: &[String], wanted: fn(Mark) -> bool) -> bool {
@@ -187,14 +172,18 @@ fn begins(words: &[String]) -> bool {
         }
         // «… и как до него добраться?»
         Mark::How => has_mark(words, |mark| matches!(mark, Mark::Move)),
-        // "… and is it on?"
+        // "… and is it on?", "… and is the door shut?"
         Mark::Be => {
             let next = vocabulary::longest(&words[taken..]);
-            next.is_some_and(|(_, m)| matches!(m, Mark::Pronoun(_) | Mark::Anything))
+            let inverted = matches!(words[0].as_str(), "is" | "are");
+            next.is_some_and(|(_, m)| match m {
+                Mark::The => inverted,
+                m => matches!(m, Mark::Pronoun(_) | Mark::Anything),
+            })
         }
         // "there is a lamp and there is …" asks nothing new of one thing.
         Mark::Exists => words.len() > 2,
-        mark => is_asking(mark) && (words.len() > 1 || mark == Mark::Where),
+        mark => mark.asks() && (words.len() > 1 || mark == Mark::Where),
     }
 }
 

@@ -73,6 +73,13 @@ impl Knowledge<'_> {
         if let Some(room) = asked.then(topic).flatten().filter(|t| t.area().is_some()) {
             return Some(room);
         }
+        // «Что рядом с ней? Сколько там фруктов?»: where it is, not in it.
+        if let Some(Query::Find(noun)) = &self.memory.query
+            && noun.restrictions.iter().any(|place| place.rel.is_side())
+            && let Some(beside) = topic().filter(|thing| thing.replica().is_some())
+        {
+            return self.place_of(beside);
+        }
         // «Что на кухне?» lists things there; the kitchen is the place.
         let latest = self.memory.exchanges.first().filter(|e| !e.members().is_empty());
         if let Some(place) = latest.and_then(|e| e.topics().iter().copied().find(|t| bears(*t))) {

@@ -101,6 +101,8 @@ impl Asker<'_> {
         if several::asks_outright(text) && !wishes && !begs && !tells {
             return None;
         }
+        // "Is the stove on or off, and …" asks of what it names.
+        let asks_whether = !begs && !tells && !wishes && opening::asks_at_once(&keys);
         // «Ту, что в комоде, достань» orders.
         if is_order(text) && !begs && !seeks {
             return None;
@@ -147,7 +149,8 @@ impl Asker<'_> {
                 }
             }
         }
-        Some(named)
+        let names_nothing = named.things.is_empty() && named.places.is_empty();
+        (names_nothing || !asks_whether).then_some(named)
     }
 }
 

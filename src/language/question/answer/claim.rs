@@ -80,7 +80,7 @@ impl Knowledge<'_> {
         };
         let mut anchors = Vec::new();
         for noun in &restriction.anchors {
-            anchors.extend(self.find(noun, true)?);
+            anchors.extend(self.find(&self.shelves(restriction.rel, noun), true)?);
         }
         if anchors.is_empty() {
             return Err(self.none_such(noun));

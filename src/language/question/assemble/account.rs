@@ -100,6 +100,7 @@ impl Frame<'_, '_> {
     /// Whether a word of the sentence asks for what the query does not answer.
     pub(super) fn asks_more_than(&self, query: &mut Query) -> bool {
         self.suffice(query);
+        self.rank_as_number(query);
         let told = Told::of(query);
         let query = &*query;
         // «Какие картины или картины …?», where two words mean the same
@@ -449,6 +450,16 @@ impl Frame<'_, '_> {
         }
     }
 
+    /// "Is there a second television?": at least two of them.
+    fn rank_as_number(&self, query: &mut Query) {
+        let Query::Exists { what, .. } = query else { return };
+        for noun in what.iter_mut().filter(|noun| !self.is_area(noun) && noun.best.is_none()) {
+            if let Some(rank) = noun.rank.take_if(|rank| *rank > 1) {
+                (noun.count, noun.quantity) = (Some(rank), Quantity::AtLeast);
+            }
+        }
+    }
+
     /// "How many things is that?", «Сколько это?»: what is pointed at must be in the query.
     fn points(&self, told: &Told, query: &Query) -> bool {
         let takes = matches!(
@@ -646,7 +657,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::Best(_) | Mark::BestTo(_) => {
             told.best || matches!(query, Q::WhichMore { .. } | Q::Size { .. } | Q::WhichWay { .. })
         }
-        Mark::Rank(_) => told.rank || told.referent,
+        Mark::Rank(_) => told.rank || told.referent || told.counted,
         Mark::Other => {
             told.other
                 || told.like

@@ -9,6 +9,18 @@ use crate::question::query::{Head, Noun, Query, Rel, Restriction};
 impl Frame<'_, '_> {
     /// The query with the noun that its question word lacks; none where nothing was spoken of that it could be.
     pub(super) fn filled(&self, query: Query, head: Option<Head>) -> Option<Query> {
+        if let Query::Exists { what, .. } = &query
+            && let [noun] = &what[..]
+            && self.is_any_of_those(noun)
+        {
+            let noun = Noun { head: head?, ..noun.clone() };
+            return Some(match query {
+                Query::Exists { either, denial, .. } => {
+                    Query::Exists { what: vec![noun], either, denial }
+                }
+                query => query,
+            });
+        }
         let counts = self.has(Mark::HowMany);
         let asks = counts || self.has(Mark::Which) || self.compares();
         if !asks || !self.values.is_empty() {
@@ -31,6 +43,15 @@ impl Frame<'_, '_> {
             }
             query => Some(query),
         }
+    }
+
+    /// "Are there any in the kitchen?", «есть ли хоть одна в ванной?»: any of those, and not anything at all.
+    fn is_any_of_those(&self, noun: &Noun) -> bool {
+        const ANY: [&str; 4] = ["any", "один", "одна", "одно"];
+        let said = self.sentence.keys.iter().any(|key| ANY.contains(&key.as_str()));
+        said && noun.head.anything
+            && noun.filters.is_empty()
+            && self.nouns.iter().all(|s| s.noun.head.anything)
     }
 
     /// «Что ближе?»: between what, nothing says.

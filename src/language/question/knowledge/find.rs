@@ -477,6 +477,7 @@ impl Knowledge<'_> {
             return Ok(bearers.into_iter().filter(|(_, n)| fits(n)).map(|(t, _)| t).collect());
         }
         for noun in &restriction.anchors {
+            let noun = &self.shelves(restriction.rel, noun);
             for anchor in self.anchors(restriction, noun, loose)? {
                 found.extend(self.related(restriction.rel, anchor));
             }

@@ -2,13 +2,34 @@
 //!
 //! Invariant: what a kind means is said here, whoever asks.
 
+use std::borrow::Cow;
+
 use super::Knowledge;
 use crate::map::Entity;
-use crate::question::lexicon::{Extension, Lexicon};
-use crate::question::query::Thing;
+use crate::question::lexicon::{Extension, KindId, Lexicon};
+use crate::question::query::{Noun, Rel, Thing};
 use crate::units::{InOrder as _, ObjectId, ReplicaId};
+use crate::words::english;
 
 impl Knowledge<'_> {
+    /// What shelves are where something is on them, whichever: those of a bookcase as well, which is called otherwise.
+    pub(in crate::question) fn shelves<'n>(&self, rel: Rel, noun: &'n Noun) -> Cow<'n, Noun> {
+        const SHELVES: &str = "shelves";
+        let types = &self.world.types.object;
+        let kinds = types.entries.keys().filter(|id| types.has_trait(Some(**id), SHELVES));
+        let kinds = kinds.filter_map(|id| self.lexicon().kind_of(&Extension::ObjectType(*id)));
+        let kinds: Vec<KindId> = kinds.collect();
+        let any = (noun.indefinite || noun.plural) && noun.count.is_none();
+        let called = |id: &KindId| english::plural(&self.lexicon().kind(*id).english) == SHELVES;
+        let named = |id: &&KindId| noun.head.kinds.contains(id);
+        if rel != Rel::On || !any || !kinds.iter().filter(named).any(called) {
+            return Cow::Borrowed(noun);
+        }
+        let mut noun = noun.clone();
+        noun.head.kinds.extend(kinds);
+        Cow::Owned(noun)
+    }
+
     /// Everything of a kind.
     pub(in crate::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
         let replica = |&id: &ReplicaId| Thing::Entity(Entity::Replica(id));

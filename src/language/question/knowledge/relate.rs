@@ -362,11 +362,18 @@ impl Knowledge<'_> {
         if self.related(rel, y).contains(&x) {
             return true;
         }
-        // What is in a dresser is not on it.
-        let within = rel == Rel::On
-            && y.replica().is_some_and(|id| !self.world.has_trait(id, "shelves"))
-            && self.on_or_in(x, y) == Rel::In;
-        matches!(rel, Rel::On | Rel::In) && !within && self.support_chain(x).contains(&y)
+        if !matches!(rel, Rel::On | Rel::In) {
+            return false;
+        }
+        let chain = self.support_chain(x);
+        let Some(at) = chain.iter().position(|under| *under == y) else { return false };
+        let last = at.checked_sub(1).map_or(x, |before| chain[before]);
+        let has = |wanted| y.replica().is_some_and(|id| self.world.has_trait(id, wanted));
+        // What is in a dresser is not on it, and what stands on a fridge is not in it; whoever says "in the bed" means on it.
+        match self.on_or_in(last, y) {
+            Rel::In => rel == Rel::In || has("shelves"),
+            _ => rel == Rel::On || !has("container"),
+        }
     }
 
     /// What a thing lies on or in itself, and on what it lies by that, the nearest first.

@@ -18,14 +18,21 @@ impl Resolver<'_, '_> {
         let knowledge = self.knowledge;
         // «те, что на комоде», "the one in the hall": of those that were spoken of.
         if points(noun) {
-            let spoken = match knowledge.memory.listed.is_empty() {
-                true => &knowledge.memory.spoken,
-                false => &knowledge.memory.listed,
+            let memory = knowledge.memory;
+            // "The smaller one" is one of several that were compared, or told together, last.
+            let compared = || {
+                let told = memory.exchanges.iter().flat_map(|e| [e.compared(), e.members()]);
+                told.into_iter().find(|all| all.len() > 1).unwrap_or_default().to_vec()
+            };
+            let spoken = match (noun.best.is_some(), memory.listed.is_empty()) {
+                (true, _) => compared(),
+                (false, true) => memory.spoken.clone(),
+                (false, false) => memory.listed.clone(),
             };
             if spoken.is_empty() {
                 return Err(Doubt::NoReferent { word: noun.text.clone() });
             }
-            let head = Head { things: Some(spoken.clone()), ..Head::default() };
+            let head = Head { things: Some(spoken), ..Head::default() };
             return self.candidates(&Noun { head, ..noun.clone() }, within);
         }
         if let Some(at) = within.iter().position(|r| r.rel == Rel::Has) {

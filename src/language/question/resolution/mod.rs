@@ -80,6 +80,11 @@ impl Asker<'_> {
         let misread = |doubt: Doubt| {
             Misread(Box::new(self.knowledge(language, &Memory::default()).unanswered(doubt)))
         };
+        // What only forbids is refused as it was said.
+        if command::forbids(&gathered) {
+            let text = gathered.into_owned();
+            return Ok(Resolved { text, meant: Vec::new(), last: Vec::new() });
+        }
         if let Some(above) = self.lacks_storey(&gathered) {
             return Err(misread(Doubt::NoStorey { above }));
         }
@@ -333,7 +338,10 @@ impl Resolver<'_, '_> {
             // «в спальню на кровать»: whither too, and where that is.
             let whither = self.is_whither(other.rel, other.phrase) == Some(true);
             let rooms = self.knowledge.base(&other.phrase.noun.head);
+            // "The cups on the ground floor to the desk": of what is carried, where it stands before the place.
+            let of_place = sort == Sort::Go || other.item > spot.item;
             let storey = self.means_storey(other.phrase) && !self.means_storey(spot.phrase);
+            let storey = storey && of_place;
             let whither = whither && rooms.iter().all(|t| t.area().is_some()) || storey;
             if whither && matches!(sort, Sort::Put | Sort::Carry | Sort::Go) {
                 let anchors = vec![other.phrase.noun.clone()];

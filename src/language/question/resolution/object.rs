@@ -8,7 +8,7 @@ use super::place::Spot;
 use crate::command::Sort;
 use crate::map::Entity;
 use crate::question::Doubt;
-use crate::question::grammar::{Item, Phrase};
+use crate::question::grammar::{Item, Phrase, points};
 use crate::question::knowledge::Knowledge;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
@@ -67,7 +67,10 @@ impl Resolver<'_, '_> {
             noun.head = like;
         } else if noun.head.anything && noun.other {
             noun.head = Head { things: Some(self.like_spoken()), ..Head::default() };
-        } else if noun.head.anything && !self.spoken.is_empty() {
+        } else if noun.head.anything
+            && !self.spoken.is_empty()
+            && !(points(&noun) && noun.best.is_some())
+        {
             noun.head = Head { things: Some(self.spoken.clone()), ..Head::default() };
             // "the second one", in the order in which they were told
             let bare = noun.filters.is_empty() && spots.is_empty();
@@ -136,6 +139,7 @@ impl Resolver<'_, '_> {
         }
         let told = noun_is.map(|way_out| Noun { head: way_out.head, ..noun.clone() });
         let noun = told.as_ref().unwrap_or(noun);
+        let noun = &self.with_excepted_best(noun, &within);
         if self.is_strange(&phrase.words) {
             return Ok(None);
         }
@@ -290,8 +294,23 @@ impl Resolver<'_, '_> {
             if left_out.is_empty() {
                 return Err((self.knowledge.none_such(&out), at()));
             }
+            let kept = found(&Noun { except: vec![except.clone()], ..noun.clone() }, within)?;
+            if kept.iter().any(|thing| left_out.contains(thing)) {
+                return Err((Doubt::not_understood(&except.text), at()));
+            }
         }
         Ok(())
+    }
+
+    /// "All the cups on the table but the biggest one": the biggest of those.
+    fn with_excepted_best(&self, noun: &Noun, within: &[Restriction]) -> Noun {
+        let mut whole = noun.clone();
+        for except in whole.except.iter_mut().filter(|out| out.head.anything && out.best.is_some())
+        {
+            except.head = noun.head.clone();
+            except.restrictions.extend(self.resting(within));
+        }
+        whole
     }
 
     /// «обе чашки», "both cups"

@@ -142,8 +142,8 @@ impl Resolver<'_, '_> {
             Rel::At | Rel::From | Rel::To | Rel::Through => false,
             // «комната с диваном»
             Rel::Has => true,
-            // A room is not told by what it is beside.
-            _ => !area(last.phrase),
+            // A room that has a name is not told by what it is beside: "the room next to the kitchen" is.
+            _ => !area(last.phrase) || last.phrase.noun.head.named.is_empty(),
         }
     }
 
