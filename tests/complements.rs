@@ -257,7 +257,7 @@ fn they_that_were_named_without_choosing_are_all_of_them() {
     let Some(engine) = engine("../shared/data/procthor/house_4.json") else { return };
     let all = names(&ask(&engine, "Which keys are there?"));
     assert!(all.len() > 1, "{all:?}");
-    for told in ["I can't find my keys.", "I need the keys.", "There should be two sets of keys."] {
+    for told in ["I can't find my keys.", "I need the keys.", "There should be two keys."] {
         let answer = ask(&engine, &format!("{told} Where are they?"));
         assert_eq!(names(&answer), all, "{told}: {}", answer.text);
     }
