@@ -330,6 +330,9 @@ fn goals(world: &World, order: &str) -> Option<Vec<GoalFact>> {
     engine.perform(order, &mut |_| {}).ok().map(|answer| answer.goal)
 }
 
+/// What is said of things, and the words that go with it.
+type Pairs<'a> = &'a [(&'a str, &'a str)];
+
 /// "Get the battery and the toolbox and put them on the desk": what is taken to be put somewhere is neither handed over
 /// first nor held, whichever verbs say so.
 #[test]
@@ -337,8 +340,7 @@ fn a_taking_is_part_of_the_placing_behind_it() {
     let lab = World::load(project("maps/lab.toml")).unwrap();
     let flat = crate::worlds::rb2();
     let ends =
-        |(world, takes, things, joints, puts): (&World, &[&str], _, &[&str], &[(&str, &str)])| {
-            let things: &[(&str, &str)] = things;
+        |(world, takes, things, joints, puts): (&World, &[&str], Pairs<'_>, &[&str], Pairs<'_>)| {
             let mut told = 0;
             for (n, take) in takes.iter().enumerate() {
                 for (m, (put, to)) in puts.iter().enumerate() {
