@@ -11,7 +11,7 @@ pub(crate) mod parallel;
 mod piece;
 pub(crate) mod relaxed;
 mod restarts;
-mod rounds;
+pub(crate) mod rounds;
 mod shorten;
 
 pub use anytime::{solve_anytime, solve_soon};

@@ -21,7 +21,7 @@ const LOOKS: u64 = 32;
 const WAYS: usize = 2;
 
 /// A plan of no more actions, no dearer, with less of actions and steps together, as far as [`Limits::shorten_effort`] goes.
-pub(super) fn shortened(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+pub(crate) fn shortened(task: &Task, plan: Plan, limits: &Limits) -> Plan {
     // How few steps there can be is still to be proven.
     let limits = &limits.with_time_to_spare();
     let mut best = plan.clone();
