@@ -80,7 +80,7 @@ fn soon(task: &Task, limits: &Limits) -> Outcome {
         Outcome::Plan(if limits.shorten == 0 {
             plan
         } else {
-            rounds::shortened(task, plan, limits)
+            rounds::shortened(task, plan, limits, Some(shorten::shorten))
         })
     };
     let found = |found| match found {

@@ -5,7 +5,6 @@ use super::fewer::Stretches;
 use super::landmarks::Landmarks;
 use super::parallel::has_less;
 use super::restarts::Restarts;
-use super::shorten;
 use crate::Limits;
 use crate::plan::Plan;
 use crate::strips::Task;
@@ -20,8 +19,16 @@ const LOOKS: u64 = 32;
 /// Plans that are made of fewer actions at the same time: one may come to less though it has more at first.
 const WAYS: usize = 2;
 
+/// What makes of a plan one of fewer steps and no more actions, and takes what that takes from the effort allowed.
+pub(crate) type FewerSteps = fn(&Task, Plan, &Limits, &mut u64) -> Plan;
+
 /// A plan of no more actions, no dearer, with less of actions and steps together, as far as [`Limits::shorten_effort`] goes.
-pub(crate) fn shortened(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+pub(crate) fn shortened(
+    task: &Task,
+    plan: Plan,
+    limits: &Limits,
+    fewer_steps: Option<FewerSteps>,
+) -> Plan {
     // How few steps there can be is still to be proven.
     let limits = &limits.with_time_to_spare();
     let mut best = plan.clone();
@@ -62,10 +69,12 @@ pub(crate) fn shortened(task: &Task, plan: Plan, limits: &Limits) -> Plan {
             ways.sort_by_key(|way| way.best().action_count());
             ways.truncate(WAYS);
         }
-        if best != as_short {
+        if let Some(fewer_steps) = fewer_steps
+            && best != as_short
+        {
             let within = Limits { tell: None, ..limits.clone() };
             let mut shorter = best.clone();
-            turn(1, &mut |share| shorter = shorten::shorten(task, best.clone(), &within, share));
+            turn(1, &mut |share| shorter = fewer_steps(task, best.clone(), &within, share));
             offer(&mut best, &shorter);
             as_short.clone_from(&best);
         }

@@ -416,7 +416,7 @@ impl<'a> Extractor<'a> {
             return self.seek_any(&limits);
         }
         if let Some(known) = &self.known {
-            self.offer(rounds::shortened(self.task, known.clone(), &limits));
+            self.offer(rounds::shortened(self.task, known.clone(), &limits, None));
         }
         Ok(())
     }
