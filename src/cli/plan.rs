@@ -100,7 +100,9 @@ impl PlanArgs {
         let memory_bytes =
             self.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20));
         let effort = self.effort.map(|millions| millions.saturating_mul(1_000_000));
-        Limits { deadline, memory_bytes, effort, ..all }
+        // Who gives it time wants it used.
+        let shorten_effort = deadline.map_or(all.shorten_effort, |_| u64::MAX);
+        Limits { deadline, memory_bytes, effort, shorten_effort, ..all }
     }
 }
 

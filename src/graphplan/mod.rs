@@ -50,8 +50,8 @@
 //!   only undoes the one before, and, where every two operators exclude each other and every shorter plan is
 //!   refuted, what can hold after exactly so many steps; both hold of some plan of the fewest actions.
 //! - *Fewest actions.* After the fewest steps are proven, a bound on the number (or cost) of actions sinks
-//!   until the solver refutes it or the given effort is used up; a plan found soon is made of fewer actions and then
-//!   of fewer steps piece by piece to a given effort, stays a plan throughout, and never gets more actions or dearer.
+//!   until the solver refutes it or the given effort is used up; a plan found soon is made of fewer actions and of
+//!   fewer steps piece by piece, and sought anew by fewer, to a given effort; it never gets more actions or dearer.
 //! - *Least cost*, whatever the steps: [`solve_cheapest`] (`graphplan/cheapest`), where what operators cost is time.
 //! - *Why a goal is out of reach* is found apart from planning, from the rules (`strips/lack`): what is told to
 //!   be missing holds in no relaxed future, and what is told to help was neither stated nor can be brought
@@ -183,7 +183,8 @@ pub struct Limits {
     pub fewer_actions: u64,
     /// Pieces of a plan found soon that may be planned anew to shorten it.
     pub shorten: u64,
-    /// What shortening may take in all, in variables set by the solver and what takes as long.
+    /// What making a plan found soon shorter may take in all, in variables set by the solver and what takes as long;
+    /// without end, it goes on until the deadline, or until nothing is left to be tried.
     pub shorten_effort: u64,
     /// Who is told of a plan found soon, and of every one with fewer steps or fewer actions that it is made.
     pub tell: Option<fn(&Plan)>,
@@ -206,7 +207,7 @@ impl Default for Limits {
             parallel_steps: 10_000,
             fewer_actions: 1 << 10,
             shorten: 300,
-            shorten_effort: 1 << 28,
+            shorten_effort: Self::TO_START,
             tell: None,
             tell_bound: None,
             effort: None,
@@ -223,6 +224,21 @@ impl Limits {
     #[must_use]
     pub fn quiet(&self) -> Self {
         Self { tell: None, tell_bound: None, ..self.clone() }
+    }
+
+    /// The same for one of several plans that are sought one after the other: it leaves time to those that come next.
+    #[must_use]
+    pub fn one_of_several(&self) -> Self {
+        Self { shorten_effort: self.shorten_effort.min(Self::TO_START), ..self.clone() }
+    }
+
+    /// The same, but it ends somewhat earlier: what was found is looked at in the rest of the time.
+    pub(crate) fn with_time_to_spare(&self) -> Self {
+        const PART: u32 = 16;
+        let earlier = |deadline: Instant| {
+            deadline - deadline.saturating_duration_since(Instant::now()) / PART
+        };
+        Self { deadline: self.deadline.map(earlier), ..self.clone() }
     }
 
     /// Whether the clock and so much memory held allow to go on.

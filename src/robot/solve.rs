@@ -297,6 +297,9 @@ pub(super) fn solve_goal(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
+    // What the floor refuses is planned anew without it.
+    let many = limits.one_of_several();
+    let limits = if floor.is_some() { &many } else { limits };
     let mut search = |task: &Task| match wanted {
         Wanted::Shortest => graphplan::solve(task, limits),
         Wanted::Any => graphplan::solve_any(task, limits),
@@ -465,8 +468,9 @@ pub(super) fn solve_without(
         let serves = learned.is_some_and(|learned| learned.serves(&after.task));
         (before, after, serves)
     } else {
-        let before = solve_on(again(&mut floor), domain, problem, limits, wanted)?;
-        (before, solve_on(floor, domain, &without, limits, wanted)?, false)
+        let both = limits.one_of_several();
+        let before = solve_on(again(&mut floor), domain, problem, &both, wanted)?;
+        (before, solve_on(floor, domain, &without, &both, wanted)?, false)
     };
     *problem = without;
     Ok(Replanned { before, after, withdrawn: gone, learned_before })

@@ -138,7 +138,7 @@ impl Passable for Terrain<'_> {
         if is_whole || !matches!(outcome, Outcome::NoPlan { .. }) {
             return (outcome, Vec::new());
         }
-        match graphplan::solve_any(&whole, &limits.quiet()) {
+        match graphplan::solve_any(&whole, &limits.quiet().one_of_several()) {
             Outcome::Plan(plan) => (outcome, self.refused(domain, &whole, &plan, trial, limits)),
             // It is not the floor that it fails for.
             Outcome::NoPlan { .. } => {

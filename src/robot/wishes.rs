@@ -71,6 +71,7 @@ pub(super) fn solve(
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
     let all: Vec<Preference> = problem.preferences().cloned().collect();
+    let limits = &limits.one_of_several();
     let mut without = |left_out: &BTreeSet<usize>| {
         let problem = problem.with_preferences(|number| !left_out.contains(&number));
         solve_goal(again(&mut floor), domain, &problem, limits, wanted)

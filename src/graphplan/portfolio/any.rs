@@ -84,24 +84,6 @@ pub(crate) fn in_order(
     Ok(operators.map(|operators| without_needless(task, operators)))
 }
 
-/// A plan found step by step, without following relaxed plans to their ends: it takes longer to find and mostly has
-/// fewer actions (S. Richter, M. Westphal, 2010). None where it takes more than so much effort.
-pub(crate) fn step_by_step(
-    task: &Task,
-    effort: u64,
-    limits: &Limits,
-) -> Result<Option<Plan>, Limit> {
-    let mut forward = Forward::new(task, limits, Effort::Small);
-    let landmarks = Landmarks::of(task);
-    let mut search = BestFirst::new(initial(task), landmarks.as_ref());
-    let come = search.go_on(&mut forward.guide, End { evaluated: u64::MAX, effort });
-    forward.note();
-    Ok(match come? {
-        Come::To(operators, _) => Some(without_needless(task, operators)),
-        Come::Exhausted | Come::Over => None,
-    })
-}
-
 fn without_needless(task: &Task, operators: Vec<OperatorId>) -> Plan {
     in_parallel(task, needful(task, operators).into_iter())
 }

@@ -6,6 +6,8 @@
 //! rounds depends on nothing but the task, so equal tasks give equal plans wherever effort alone ends them.
 
 use super::any::{self, Found};
+use super::landmarks::Landmarks;
+use super::restarts::Restarts;
 use super::{fewer, shorten};
 use crate::proof::errands::Errands;
 use crate::proof::{Tried, Working, prove};
@@ -170,7 +172,9 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         }
         current.iter().for_each(|plan| best.offer(working.own(plan.clone())));
     }
-    let mut has_stepwise = errands.is_some();
+    let landmarks = Landmarks::of(working.task());
+    let mut anew =
+        errands.is_none().then(|| Restarts::of(working.task(), landmarks.as_ref(), &some));
     let mut spent = 0_u64;
     for round in 0..ROUNDS {
         if best.is_proven() {
@@ -181,17 +185,21 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         if round > 0 && limits.effort.is_some_and(|most| spent > most) {
             return Ok(None);
         }
-        let within =
-            Limits { tell: None, shorten: u64::MAX, shorten_effort: effort, ..limits.clone() };
+        let within = Limits { tell: None, shorten: u64::MAX, ..limits.clone() };
         // What was found soon may be far from the best that is found step by step.
-        if !has_stepwise {
-            match any::step_by_step(working.task(), effort, &some) {
-                Ok(Some(plan)) => {
-                    has_stepwise = true;
-                    best.offer(working.own(plan.clone()));
-                    current.push(plan);
+        if let Some(search) = &mut anew {
+            let known = best.plan.as_ref().map_or(usize::MAX, Plan::action_count);
+            match search.go_on(&mut effort.clone(), known) {
+                Ok((found, is_open)) => {
+                    if let Some(plan) = found {
+                        best.offer(working.own(plan.clone()));
+                        current.push(plan);
+                    }
+                    if !is_open {
+                        anew = None;
+                    }
                 }
-                Ok(None) | Err(Limit::Memory) => {}
+                Err(Limit::Memory) => anew = None,
                 Err(limit) => return Err(limit),
             }
         }
@@ -199,7 +207,8 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             let mut share = effort;
             *plan = fewer::fewer(working.task(), std::mem::take(plan), limits, &mut share);
             best.offer(working.own(plan.clone()));
-            *plan = shorten::shorten(working.task(), std::mem::take(plan), &within);
+            share = effort;
+            *plan = shorten::shorten(working.task(), std::mem::take(plan), &within, &mut share);
             best.offer(working.own(plan.clone()));
         }
         // The others had their chance.

@@ -2,14 +2,15 @@
 //!
 //! One is the length of a relaxed plan, the other counts landmarks ahead. With each, helpful operators have a queue of
 //! their own that goes first while progress is made: those of the relaxed plan, and what brings the next landmarks. A
-//! successor is looked at only when its turn comes, as each that is tried in vain costs an estimate.
+//! successor is looked at only when its turn comes, as each that is tried in vain costs an estimate. Where what was done
+//! so far weighs as well, a state that is come to by a shorter way is opened again.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use super::landmarks::{Attained, Landmarks};
-use super::relaxed::{Estimate, Relaxed, State, carry_out};
+use super::relaxed::{Estimate, Relaxed, State, carry_out, holds};
 use crate::allowed::Allowed;
 use crate::bits;
 use crate::strips::{OperatorId, Task};
@@ -50,7 +51,7 @@ impl Guide<'_> {
         let (helpful, others): (Vec<OperatorId>, Vec<OperatorId>) =
             operators.iter().partition(|id| planned.contains(id) || brings(id));
         let count = helpful.len();
-        Successors { operators: [helpful, others].concat().into(), helpful: count }
+        Successors { operators: [helpful, others].concat().into(), helpful: count, ahead: [0; 2] }
     }
 }
 
@@ -77,6 +78,10 @@ pub(super) struct BestFirst<'l> {
     landmarks: Option<&'l Landmarks>,
     /// Fewer landmarks ahead than this are the end; at none only the goal is.
     nearer: u32,
+    /// How much what is to come weighs against what was done so far; only the first counts where there is none.
+    weight: Option<u32>,
+    /// Only a way of fewer operators is wanted.
+    fewer_than: u32,
     seen: Seen,
     queues: Queues,
     /// A state that was not looked at yet, and where it was come to from.
@@ -89,7 +94,27 @@ impl<'l> BestFirst<'l> {
         let attained = landmarks.map(|all| all.initially(&state)).unwrap_or_default();
         let queues = Queues::new(if landmarks.is_some() { 2 } else { 1 });
         let next = Some((Stage { state, attained }, None));
-        Self { landmarks, nearer: 0, seen: Seen::default(), queues, next }
+        let (weight, fewer_than) = (None, u32::MAX);
+        Self { landmarks, nearer: 0, weight, fewer_than, seen: Seen::default(), queues, next }
+    }
+
+    /// To the goal by fewer operators than so many; what is to come weighs so much against what was done so far. It may
+    /// go on after a way was found, to one of fewer operators still, and misses none.
+    pub(super) fn weighted(
+        state: State,
+        landmarks: Option<&'l Landmarks>,
+        weight: u32,
+        fewer_than: usize,
+    ) -> Self {
+        let mut search = Self { weight: Some(weight), ..Self::new(state, landmarks) };
+        search.want(fewer_than);
+        search
+    }
+
+    /// From now on only a way of fewer operators than these is wanted.
+    pub(super) fn want(&mut self, fewer_than: usize) {
+        self.fewer_than = u32::try_from(fewer_than).unwrap_or(u32::MAX);
+        self.next = self.next.take().filter(|(_, from)| self.seen.after(*from) < self.fewer_than);
     }
 
     /// To the goal, or only to where fewer landmarks are ahead than at first.
@@ -97,34 +122,58 @@ impl<'l> BestFirst<'l> {
         let nearer = landmarks.ahead(&start.attained, &start.state);
         let queues = Queues::new(2);
         let next = Some((start, None));
-        Self { landmarks: Some(landmarks), nearer, seen: Seen::default(), queues, next }
+        Self {
+            landmarks: Some(landmarks),
+            nearer,
+            weight: None,
+            fewer_than: u32::MAX,
+            seen: Seen::default(),
+            queues,
+            next,
+        }
     }
 
     pub(super) fn go_on(&mut self, guide: &mut Guide<'_>, end: End) -> Result<Come, Limit> {
         loop {
-            if let Some((stage, from)) = self.next.take()
-                && let Some(number) = self.seen.add(&stage, from)
-            {
-                let bytes = self.seen.bytes + self.queues.bytes;
-                if let Some(estimate) = guide.estimate(&stage.state, bytes)? {
-                    let ahead =
-                        self.landmarks.map_or(0, |all| all.ahead(&stage.attained, &stage.state));
-                    if estimate.distance == 0 || ahead < self.nearer {
-                        return Ok(Come::To(self.seen.path(number), stage));
+            if let Some((stage, from)) = self.next.take() {
+                match self.seen.add(&stage, from, self.weight.is_some()) {
+                    Met::First(number) => {
+                        let bytes = self.seen.bytes + self.queues.bytes;
+                        if let Some(estimate) = guide.estimate(&stage.state, bytes)? {
+                            let attained = &stage.attained;
+                            let ahead =
+                                self.landmarks.map_or(0, |l| l.ahead(attained, &stage.state));
+                            if estimate.distance == 0 || ahead < self.nearer {
+                                return Ok(Come::To(self.seen.path(number), stage));
+                            }
+                            let wanted = match self.landmarks {
+                                Some(all) => all.next(attained, &stage.state),
+                                None => vec![0; stage.state.len()].into(),
+                            };
+                            let successors =
+                                guide.successors(&stage.state, &estimate.relaxed_plan, &wanted);
+                            self.queues.add([estimate.distance, ahead], number, successors);
+                            self.open(number);
+                        }
                     }
-                    let wanted = match self.landmarks {
-                        Some(all) => all.next(&stage.attained, &stage.state),
-                        None => vec![0; stage.state.len()].into(),
-                    };
-                    let successors =
-                        guide.successors(&stage.state, &estimate.relaxed_plan, &wanted);
-                    self.queues.push([estimate.distance, ahead], number, successors);
+                    Met::Sooner(number) => {
+                        if guide.task.goal.iter().all(|&goal| holds(&stage.state, goal)) {
+                            return Ok(Come::To(self.seen.path(number), stage));
+                        }
+                        self.open(number);
+                    }
+                    Met::Again => {}
                 }
             }
             if guide.is_over(end) {
                 return Ok(Come::Over);
             }
             let Some((from, by)) = self.queues.pop() else { return Ok(Come::Exhausted) };
+            // What leads nowhere takes time as well.
+            guide.relaxed.effort += 1;
+            if self.seen.after(Some((from, by))) >= self.fewer_than {
+                continue;
+            }
             let mut stage = self.seen.stages[from as usize].clone();
             carry_out(guide.task, &mut stage.state, by);
             if let Some(landmarks) = self.landmarks {
@@ -132,6 +181,11 @@ impl<'l> BestFirst<'l> {
             }
             self.next = Some((stage, Some((from, by))));
         }
+    }
+
+    fn open(&mut self, number: u32) {
+        self.queues
+            .open(number, self.weight.map(|weight| (self.seen.done[number as usize], weight)));
     }
 }
 
@@ -147,6 +201,8 @@ pub(super) struct Stage {
 struct Successors {
     operators: Box<[OperatorId]>,
     helpful: usize,
+    /// What is to come, by each measure.
+    ahead: [u32; 2],
 }
 
 /// A queue of one measure.
@@ -182,21 +238,32 @@ impl Queues {
         Self { queues, least: [u32::MAX; 2], successors: Vec::new(), bytes: 0 }
     }
 
-    /// A state's successors wait for their turn. Progress in some measure lets helpful ones go first for a while.
-    fn push(&mut self, values: [u32; 2], number: u32, successors: Successors) {
-        for (least, value) in self.least.iter_mut().zip(values) {
+    /// What a state allows. Progress in some measure lets helpful operators go first for a while.
+    fn add(&mut self, ahead: [u32; 2], number: u32, successors: Successors) {
+        for (least, value) in self.least.iter_mut().zip(ahead) {
             if value < *least {
                 *least = value;
                 let helpful = self.queues.iter_mut().filter(|queue| queue.helpful);
                 helpful.for_each(|queue| queue.turn -= BOOST);
             }
         }
-        // A heap doubles when it grows.
-        self.bytes += successors.operators.len() * 4 + 48 + self.queues.len() * 24;
+        self.bytes += successors.operators.len() * 4 + 48;
         self.successors.resize_with(number as usize, Successors::default);
-        self.successors.push(successors);
+        self.successors.push(Successors { ahead, ..successors });
+    }
+
+    /// A state's successors wait for their turn, by what is to come, or by that and what was done together.
+    fn open(&mut self, number: u32, done_and_weight: Option<(u32, u32)>) {
+        let Some(successors) = self.successors.get(number as usize) else { return };
+        // A heap doubles when it grows.
+        self.bytes += self.queues.len() * 24;
         for queue in &mut self.queues {
-            queue.heap.push(Reverse((values[queue.measure], number, 0)));
+            let ahead = successors.ahead[queue.measure];
+            let value = match done_and_weight {
+                Some((done, weight)) => ahead.saturating_mul(weight).saturating_add(done),
+                None => ahead,
+            };
+            queue.heap.push(Reverse((value, number, 0)));
         }
     }
 
@@ -208,7 +275,7 @@ impl Queues {
             queue.turn += 1;
             let mut first = queue.heap.peek_mut()?;
             let Reverse((_, number, at)) = *first;
-            let Successors { operators, helpful } = &self.successors[number as usize];
+            let Successors { operators, helpful, .. } = &self.successors[number as usize];
             let own = if queue.helpful { &operators[..*helpful] } else { operators };
             if let Some(&id) = own.get(at as usize) {
                 first.0.2 = at + 1;
@@ -225,22 +292,45 @@ struct Seen {
     numbers: HashMap<State, u32>,
     stages: Vec<Stage>,
     from: Vec<Option<(u32, OperatorId)>>,
+    /// Operators on the way to it.
+    done: Vec<u32>,
     bytes: usize,
 }
 
+/// How a state is met.
+enum Met {
+    /// For the first time; its number.
+    First(u32),
+    /// Once more, by a shorter way.
+    Sooner(u32),
+    Again,
+}
+
 impl Seen {
-    /// The number of a state not met before.
-    fn add(&mut self, stage: &Stage, from: Option<(u32, OperatorId)>) -> Option<u32> {
-        let number = self.stages.len() as u32;
-        if self.numbers.contains_key(&stage.state) {
-            return None;
+    /// Notes a state; a shorter way to one that was met takes the place of the longer where that is asked for.
+    fn add(&mut self, stage: &Stage, from: Option<(u32, OperatorId)>, sooner: bool) -> Met {
+        let done = self.after(from);
+        if let Some(&number) = self.numbers.get(&stage.state) {
+            let known = number as usize;
+            if !sooner || self.done[known] <= done {
+                return Met::Again;
+            }
+            (self.done[known], self.from[known]) = (done, from);
+            return Met::Sooner(number);
         }
+        let number = self.stages.len() as u32;
         let words = 2 * stage.state.len() + stage.attained.len();
-        self.bytes += words * 8 + 150;
+        self.bytes += words * 8 + 154;
         self.numbers.insert(stage.state.clone(), number);
         self.stages.push(stage.clone());
         self.from.push(from);
-        Some(number)
+        self.done.push(done);
+        Met::First(number)
+    }
+
+    /// How many operators lead to what is come to from there.
+    fn after(&self, from: Option<(u32, OperatorId)>) -> u32 {
+        from.map_or(0, |(from, _)| self.done[from as usize] + 1)
     }
 
     fn path(&self, to: u32) -> Vec<OperatorId> {

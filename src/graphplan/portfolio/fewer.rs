@@ -9,6 +9,7 @@
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use super::parallel::{follows, has_less, in_parallel, needful};
 use super::relaxed::{Estimate, Relaxed, State, carry_out, initial, needed_by};
@@ -34,49 +35,75 @@ enum Layout {
     FromTheEnd,
 }
 
-/// A plan with fewer actions, as far as so much effort goes, which is taken from it. Of those met on the way it is the
-/// one that has the least of actions and steps together: what little is won at the end may put in a row what could
-/// be done at once.
+/// A plan with fewer actions, as far as so much effort goes, which is taken from it.
 pub(crate) fn fewer(task: &Task, plan: Plan, limits: &Limits, effort: &mut u64) -> Plan {
-    let most = std::mem::take(effort);
-    let (relaxed, subjects) = (Relaxed::by_sum(task), subjects(task));
-    let row: Vec<OperatorId> = plan.operators().collect();
-    let mut stretches = Stretches { task, limits, relaxed, subjects, most, best: plan };
-    // What was won stands, whatever ends it.
-    let _ = stretches.run(row);
-    *effort = most.saturating_sub(stretches.relaxed.effort);
+    let mut stretches = Stretches::of(task, plan, limits);
+    stretches.go_on(effort);
     stretches.best
 }
 
-struct Stretches<'a> {
+/// A plan that is made of fewer actions, as far as that has come.
+pub(super) struct Stretches<'a> {
     task: &'a Task,
     limits: &'a Limits,
     relaxed: Relaxed<'a>,
     /// Of each operator the objects of which it changes something.
     subjects: Vec<Vec<u32>>,
+    /// Where the effort allowed ends.
     most: u64,
+    /// What has the fewest actions, in the order that it was laid out in last.
+    row: Vec<OperatorId>,
+    /// Of those met on the way the plan that has the least of actions and steps together: what little is won at the end
+    /// may put in a row what could be done at once.
     best: Plan,
+    /// States looked at for one stretch.
+    states: usize,
+    /// Stretches of which it is known that so many states win nothing; told apart by a hash, as what two of them share
+    /// costs no more than a chance.
+    in_vain: HashMap<u64, usize>,
 }
 
-impl Stretches<'_> {
+impl<'a> Stretches<'a> {
+    pub(super) fn of(task: &'a Task, plan: Plan, limits: &'a Limits) -> Self {
+        let row = needful(task, plan.operators().collect());
+        let (relaxed, subjects) = (Relaxed::by_sum(task), subjects(task));
+        let (states, in_vain) = (FEW_STATES, HashMap::new());
+        let mut stretches =
+            Self { task, limits, relaxed, subjects, most: 0, row, best: plan, states, in_vain };
+        stretches.offer(&stretches.row.clone());
+        stretches
+    }
+
+    /// Goes on for so much effort, from which what it took is taken; whether more may be won by more.
+    pub(super) fn go_on(&mut self, effort: &mut u64) -> bool {
+        self.most = self.relaxed.effort.saturating_add(*effort);
+        let mut row = std::mem::take(&mut self.row);
+        // What was won stands, whatever ends it.
+        let ended = self.run(&mut row);
+        self.row = row;
+        *effort = self.most.saturating_sub(self.relaxed.effort);
+        ended.is_err()
+    }
+
+    pub(super) fn best(&self) -> &Plan {
+        &self.best
+    }
+
     /// Rounds of all layouts and widths with what a stretch does not touch at rest, then of the same with all that there
     /// is; when neither wins anything, with more states.
-    fn run(&mut self, mut row: Vec<OperatorId>) -> Result<(), Limit> {
-        row = needful(self.task, row);
-        self.offer(&row);
-        let mut states = FEW_STATES;
-        while states <= MOST_STATES {
-            let before = (row.len(), self.cost(&row));
+    fn run(&mut self, row: &mut Vec<OperatorId>) -> Result<(), Limit> {
+        while self.states <= MOST_STATES {
+            let before = (row.len(), self.cost(row));
             for others_rest in [true, false] {
                 for width in WIDTHS {
                     for layout in [Layout::AsItIs, Layout::Together, Layout::FromTheEnd] {
-                        row = laid_out(self.task, &row, layout);
-                        let known = (row.len(), self.cost(&row));
-                        let ended = self.pass(&mut row, (width, states), others_rest);
+                        *row = laid_out(self.task, row, layout);
+                        let known = (row.len(), self.cost(row));
+                        let ended = self.pass(row, (width, self.states), others_rest);
                         // Another order of the same actions makes the same steps.
-                        if (row.len(), self.cost(&row)) < known {
-                            row = needful(self.task, row);
-                            self.offer(&row);
+                        if (row.len(), self.cost(row)) < known {
+                            *row = needful(self.task, std::mem::take(row));
+                            self.offer(row);
                         }
                         ended?;
                     }
@@ -85,8 +112,8 @@ impl Stretches<'_> {
                     }
                 }
             }
-            if (row.len(), self.cost(&row)) >= before {
-                states *= 2;
+            if (row.len(), self.cost(row)) >= before {
+                self.states *= 2;
             }
         }
         Ok(())
@@ -120,7 +147,11 @@ impl Stretches<'_> {
             }
             let to = (from + width).min(row.len());
             let goal = needed_by(self.task, &row[to..]);
-            if others_rest {
+            let mut hasher = DefaultHasher::new();
+            (&state, &goal, &row[from..to], others_rest).hash(&mut hasher);
+            let stretch = hasher.finish();
+            let is_in_vain = self.in_vain.get(&stretch).is_some_and(|&known| known >= states);
+            if others_rest && !is_in_vain {
                 let touched: BTreeSet<u32> = row[from..to]
                     .iter()
                     .flat_map(|id| &self.subjects[id.index()])
@@ -131,14 +162,23 @@ impl Stretches<'_> {
                     subjects[operator].iter().all(|subject| touched.contains(subject))
                 });
             }
-            let won = self.sought(&state, &goal, &row[from..to], states)?;
-            let next = match won {
+            let sought = match is_in_vain {
+                true => Sought::Open,
+                false => self.sought(&state, &goal, &row[from..to], states)?,
+            };
+            let next = match sought {
                 // What came before may be won further by what is new.
-                Some(shorter) => {
+                Sought::Shorter(shorter) => {
                     row.splice(from..to, shorter);
                     from
                 }
-                None => from + (width / 2).max(1),
+                Sought::Open | Sought::None => {
+                    if !is_in_vain {
+                        let is_open = matches!(sought, Sought::Open);
+                        self.in_vain.insert(stretch, if is_open { states } else { usize::MAX });
+                    }
+                    from + (width / 2).max(1)
+                }
             };
             let next = next.min(row.len());
             row[from..next].iter().for_each(|&id| carry_out(self.task, &mut state, id));
@@ -158,17 +198,17 @@ impl Stretches<'_> {
         goal: &[FactId],
         known: &[OperatorId],
         most_states: usize,
-    ) -> Result<Option<Vec<OperatorId>>, Limit> {
+    ) -> Result<Sought, Limit> {
         let most_cost = self.cost(known);
         self.relaxed.aim_at(goal);
-        let Some(first) = self.relaxed.estimate(start) else { return Ok(None) };
+        let Some(first) = self.relaxed.estimate(start) else { return Ok(Sought::None) };
         let distance = first.distance;
         let mut nodes = vec![Node { from: None, actions: 0, cost: 0, estimate: Some(first) }];
         let mut states = vec![start.clone()];
         let mut seen: HashMap<State, u32> = HashMap::from([(start.clone(), 0)]);
         let mut open = BinaryHeap::from([Reverse((distance, distance, 0_u32))]);
         if distance == 0 {
-            return Ok((!known.is_empty()).then(Vec::new));
+            return Ok(if known.is_empty() { Sought::None } else { Sought::Shorter(Vec::new()) });
         }
         while let Some(Reverse((_, _, number))) = open.pop() {
             let (actions, cost) = {
@@ -196,7 +236,7 @@ impl Stretches<'_> {
                 let from = Some((number, id));
                 if estimate.distance == 0 {
                     nodes.push(Node { from, actions, cost, estimate: None });
-                    return Ok(Some(path(&nodes, next)));
+                    return Ok(Sought::Shorter(path(&nodes, next)));
                 }
                 if actions as usize + 1 >= known.len() {
                     continue;
@@ -206,11 +246,11 @@ impl Stretches<'_> {
                 states.push(state);
             }
             if nodes.len() >= most_states {
-                return Ok(None);
+                return Ok(Sought::Open);
             }
             self.limits.check(0)?;
         }
-        Ok(None)
+        Ok(Sought::None)
     }
 }
 
@@ -232,6 +272,16 @@ fn subjects(task: &Task) -> Vec<Vec<u32>> {
         own.into_iter().collect()
     });
     subjects.collect()
+}
+
+/// What a stretch came to.
+enum Sought {
+    /// Fewer actions, no dearer.
+    Shorter(Vec<OperatorId>),
+    /// None that helpful operators lead to.
+    None,
+    /// The states allowed were not enough.
+    Open,
 }
 
 /// A state met on the way, and by which operator.

@@ -10,6 +10,8 @@ mod novelty;
 pub(crate) mod parallel;
 mod piece;
 pub(crate) mod relaxed;
+mod restarts;
+pub(crate) mod rounds;
 mod shorten;
 
 pub use anytime::{solve_anytime, solve_soon};
@@ -75,8 +77,11 @@ fn soon(task: &Task, limits: &Limits) -> Outcome {
     const FEW_STEPS: usize = 50;
     let shortened = |plan: Plan| {
         limits.tell_of(&plan);
-        let plan = if limits.shorten == 0 { plan } else { with_fewer_actions(task, plan, limits) };
-        Outcome::Plan(shorten::shorten(task, plan, limits))
+        Outcome::Plan(if limits.shorten == 0 {
+            plan
+        } else {
+            rounds::shortened(task, plan, limits, Some(shorten::shorten))
+        })
     };
     let found = |found| match found {
         any::Found::Plan(plan) => Some(shortened(plan)),
@@ -123,24 +128,4 @@ fn soon(task: &Task, limits: &Limits) -> Outcome {
         }
         Ok(outcome) => outcome,
     }
-}
-
-/// A plan found soon is sought once more step by step, and the one of the two that has fewer actions is made of fewer
-/// still, stretch by stretch.
-fn with_fewer_actions(task: &Task, plan: Plan, limits: &Limits) -> Plan {
-    let told = |better: Plan, known: &Plan| {
-        if better.action_count() < known.action_count() || better.steps.len() < known.steps.len() {
-            limits.tell_of(&better);
-        }
-        better
-    };
-    let mut best = plan;
-    if let Ok(Some(other)) = any::step_by_step(task, limits.shorten_effort, limits)
-        && parallel::has_less(task, &other, &best)
-    {
-        best = told(other, &best);
-    }
-    let mut effort = 2 * limits.shorten_effort;
-    let fewer = fewer::fewer(task, best.clone(), limits, &mut effort);
-    told(fewer, &best)
 }

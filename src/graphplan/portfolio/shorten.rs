@@ -31,15 +31,15 @@ const TURN: Turn = Turn {
 const EFFORT_AN_OPERATOR: u64 = 32;
 
 /// A plan of fewer steps, or as many with fewer actions, and never of more actions or greater cost than at first, after
-/// at most `limits.shorten` pieces were looked at.
-pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+/// at most `limits.shorten` pieces were looked at, or so much effort was spent, which is taken from it.
+pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits, effort: &mut u64) -> Plan {
     let mut best = plan.clone();
     let first = plan.clone();
     let is_no_dearer = |plan: &Plan| {
         plan.action_count() <= first.action_count() && plan.cost(task) <= first.cost(task)
     };
     let mut plan = plan;
-    let (mut left, mut effort) = (limits.shorten, limits.shorten_effort);
+    let mut left = limits.shorten;
     // One copy serves all pieces, which differ in where they begin and end, and in what they can use in between.
     let mut piece = Task { operators: Vec::new(), ..task.clone() };
     let mut relaxed = Relaxed::new(task);
@@ -47,15 +47,9 @@ pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
     while let Some(&width) = WIDTHS.get(narrowest) {
         let mut better = false;
         let mut from = 0;
-        while from < plan.steps.len() && left > 0 && effort > 0 && limits.check(0).is_ok() {
+        while from < plan.steps.len() && left > 0 && *effort > 0 && limits.check(0).is_ok() {
             left -= 1;
-            match replaced(
-                (task, &mut piece, &mut relaxed),
-                &plan,
-                (from, width),
-                limits,
-                &mut effort,
-            ) {
+            match replaced((task, &mut piece, &mut relaxed), &plan, (from, width), limits, effort) {
                 Some(shorter) => {
                     plan = shorter;
                     if is_no_dearer(&plan) && size(&plan) < size(&best) {
@@ -69,7 +63,7 @@ pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
                 None => from += (width / 2).max(1),
             }
         }
-        if left == 0 || effort == 0 || width >= plan.steps.len() {
+        if left == 0 || *effort == 0 || width >= plan.steps.len() {
             break;
         }
         // What one width improved, a narrower one may improve further.
@@ -188,7 +182,7 @@ mod tests {
             // Detours and returns make a plan longer in every way.
             let walk = wandering(&task, &mut random, &first);
             for from in [first, walk] {
-                let plan = shorten(&task, from.clone(), &Limits::default());
+                let plan = shorten(&task, from.clone(), &Limits::default(), &mut (1 << 28));
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
                 assert!(size(&plan) <= size(&from), "seed {seed}");
                 assert!(plan.action_count() <= from.action_count(), "seed {seed}");

@@ -28,7 +28,7 @@ mod transition;
 
 pub use replan::Learned;
 
-use crate::portfolio::{any, parallel};
+use crate::portfolio::{any, parallel, rounds};
 use crate::strips::{FactId, Task};
 use crate::tried::telling;
 use crate::{Attempt, Limit, Limits, NoPlanReason, Outcome, Plan, Unfinished, Way, with_stack};
@@ -358,6 +358,10 @@ struct Extractor<'a> {
 /// Forward search gets this part of the memory for it.
 const SEEKING_OF_MEMORY: usize = 4;
 
+/// What is known is made shorter each time that so many times the effort was spent, by such a part of it.
+const SEEKING_AGAIN: u64 = 4;
+const SEEKING_SHARE: u64 = 64;
+
 impl<'a> Extractor<'a> {
     fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
         Self {
@@ -398,21 +402,33 @@ impl<'a> Extractor<'a> {
     }
 
     /// The fewest steps are no more than those of a plan found soon, and no fewer than those of the walk that the goal
-    /// asks for, if it does.
+    /// asks for, if it does. It is made shorter as the proof takes longer.
     fn seek(&mut self, graph: &PlanningGraph) -> Result<(), Limit> {
-        let is_time = self.turn.seek.is_some_and(|effort| self.effort(graph) >= effort);
-        if !is_time || std::mem::replace(&mut self.has_sought, true) {
+        let effort = self.effort(graph);
+        if self.turn.seek.is_none_or(|from| effort < from) {
             return Ok(());
         }
+        self.turn.seek = Some(effort.saturating_mul(SEEKING_AGAIN));
         let memory_bytes = self.limits.memory_bytes / SEEKING_OF_MEMORY;
-        let limits = Limits { memory_bytes, ..self.limits.clone() };
+        let shorten_effort = effort / SEEKING_SHARE;
+        let limits = Limits { memory_bytes, shorten_effort, ..self.limits.quiet() };
+        if !std::mem::replace(&mut self.has_sought, true) {
+            return self.seek_any(&limits);
+        }
+        if let Some(known) = &self.known {
+            self.offer(rounds::shortened(self.task, known.clone(), &limits, None));
+        }
+        Ok(())
+    }
+
+    fn seek_any(&mut self, limits: &Limits) -> Result<(), Limit> {
         let mut found = Ok(None);
         if let Some(errands) = Errands::of(self.task) {
             self.walked = errands.at_least;
-            found = any::in_order(self.task, &errands.stages, &limits);
+            found = any::in_order(self.task, &errands.stages, limits);
         }
         if matches!(found, Ok(None)) && self.known.is_none() {
-            found = any::search(self.task, &limits, any::Effort::Least).map(any::Found::plan);
+            found = any::search(self.task, limits, any::Effort::Least).map(any::Found::plan);
         }
         match found {
             Ok(Some(plan)) => self.offer(plan),
