@@ -6,7 +6,7 @@ use super::segments::segment;
 use super::values::{point, pose, round};
 use super::ways::whereabout;
 use crate::engine::differences::{Differing, ThingNews};
-use crate::engine::{Changes, FoundScan, Things, View, World};
+use crate::engine::{Changes, FoundScan, Things, Unplaced, View, World};
 use crate::map::{DoorStatus, Entity};
 use crate::vectors::Segment;
 
@@ -27,10 +27,14 @@ pub(crate) fn found_scans(world: &World, found: &[FoundScan]) -> Value {
         json!({
             "scan": found.scan,
             "line": found.line,
-            "found": match (found.is_unique, found.poses.is_empty()) {
-                (true, _) => "unique",
-                (false, false) => "ambiguous",
-                (false, true) => "unknown",
+            "found": match found.unplaced {
+                Some(why) => why.code(),
+                None if found.is_unique() => "unique",
+                None => "ambiguous",
+            },
+            "at_least": match found.unplaced {
+                Some(Unplaced::TooMany(least)) => Some(least),
+                _ => None,
             },
             "event": found.event(),
             "telling_move": found.telling.map(|by| json!({

@@ -3,7 +3,9 @@
 
 use nalgebra::{Isometry2, Point2};
 
-use orthoframe_sensing::{Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker};
+use orthoframe_sensing::{
+    Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker, Unknown,
+};
 use orthoframe_vectors::scan::{Noise, Sensor};
 
 fn sensor() -> Sensor {
@@ -71,7 +73,7 @@ fn what_is_unique_is_right() {
                     );
                     several += 1;
                 }
-                Answer::Unknown => {}
+                Answer::Unknown(_) => {}
             }
         }
     }
@@ -179,8 +181,29 @@ fn whatever_a_sensor_brings_ends_in_an_answer() {
         let answer = localiser.locate(&sensor(), &vec![value; count]);
         assert!(!matches!(answer, Answer::Unique(_)), "{value}");
     }
-    assert!(matches!(localiser.locate(&sensor(), &[]), Answer::Unknown));
+    let nothing = localiser.locate(&sensor(), &[]);
+    assert!(matches!(nothing, Answer::Unknown(Unknown::TooLittle)));
     let nothing = Chart::new(Vec::new());
     let localiser = Localiser::new(&nothing, Options::default());
-    assert!(matches!(localiser.locate(&sensor(), &vec![100.0; count]), Answer::Unknown));
+    let answer = localiser.locate(&sensor(), &vec![100.0; count]);
+    assert!(matches!(answer, Answer::Unknown(Unknown::Nowhere)));
+}
+
+/// Rooms all alike, too many to be looked through: a scan in one of them fits too many places, and one of a round room, which
+/// the chart has not, fits nowhere.
+#[test]
+fn what_fits_too_many_places_is_told_apart_from_what_fits_nowhere() {
+    let mut random = fastrand::Rng::with_seed(5);
+    let rooms = (0..256).map(|n| (f64::from(n % 16) * 330.0, f64::from(n / 16) * 230.0));
+    let lines: Vec<Line> = rooms.flat_map(|(x, y)| rectangle(x, y, 300.0, 200.0)).collect();
+    let chart = Chart::new(lines);
+    let localiser = Localiser::new(&chart, Options::default());
+    let pose = Isometry2::new(nalgebra::Vector2::new(3.0 * 330.0 + 90.0, 5.0 * 230.0 + 70.0), 0.4);
+    let ranges = scan(&chart, &sensor(), &pose, &mut random);
+    let answer = localiser.locate(&sensor(), &ranges);
+    let Answer::Unknown(Unknown::TooMany(fits)) = &answer else { panic!("{answer:?}") };
+    assert!(fits.len() >= 10 && fits.iter().all(|fit| fit.explained > 0.9), "{answer:?}");
+    let round: Vec<f64> = vec![240.0; sensor().count()];
+    let answer = localiser.locate(&sensor(), &round);
+    assert!(matches!(answer, Answer::Unknown(Unknown::Nowhere)), "{answer:?}");
 }
