@@ -100,10 +100,14 @@ impl Localiser<'_> {
             .collect();
         let mut fits: Vec<(f64, Fit)> = Vec::new();
         let mut is_loose = false;
-        for (_, pose) in rough.into_iter().filter(|(evidence, _)| *evidence >= best - LEADS_ROUGHLY)
-        {
-            let exact = refine(self.chart(), &held, self.options().sigma, pose, WIDE)
-                .filter(|exact| is_near(&exact.pose, &pose, APART));
+        let exactly = |pose| {
+            refine(self.chart(), &held, self.options().sigma, pose, WIDE)
+                .filter(|exact| is_near(&exact.pose, &pose, APART))
+        };
+        let (likely, others): (Vec<_>, Vec<_>) =
+            rough.into_iter().partition(|(evidence, _)| *evidence >= best - LEADS_ROUGHLY);
+        for (_, pose) in likely {
+            let exact = exactly(pose);
             is_loose |= exact.is_none();
             let (pose, covariance) = exact.map_or((pose, loosely()), |e| (e.pose, e.covariance));
             let (evidence, fit) = (evidence(&pose, 1), fit(pose, covariance));
@@ -117,8 +121,19 @@ impl Localiser<'_> {
         let Some(best) = fits.first().map(|(evidence, _)| *evidence) else {
             return Answer::Unknown(Unknown::Nowhere);
         };
-        fits.retain(|(evidence, _)| *evidence >= best - LEADS);
+        // What the chart has and is not there any more bars the right place from all looks that went through it, so that another is
+        // the likelier by far: then that explains less.
+        let worth = fits[0].1.worth();
+        fits.retain(|(evidence, fit)| *evidence >= best - LEADS || fit.worth() > worth);
         let mut fits: Vec<Fit> = fits.into_iter().map(|(_, fit)| fit).collect();
+        if fits.len() == 1 {
+            let better = |(_, pose): (f64, Isometry2<f64>)| {
+                let near = fit(pose, loosely()).worth() > worth - self.options().margin;
+                let exact = exactly(pose).filter(|_| near)?;
+                Some(fit(exact.pose, exact.covariance)).filter(|fit| fit.worth() > worth)
+            };
+            fits.extend(others.into_iter().filter_map(better));
+        }
         match &fits[..] {
             _ if !found.is_all => Answer::Unknown(Unknown::TooMany(fits)),
             [only] if only.explained < SURE => Answer::Unknown(Unknown::Unsure),

@@ -207,3 +207,41 @@ fn what_fits_too_many_places_is_told_apart_from_what_fits_nowhere() {
     let answer = localiser.locate(&sensor(), &round);
     assert!(matches!(answer, Answer::Unknown(Unknown::Nowhere)), "{answer:?}");
 }
+
+/// Two rooms alike in one half. In the right one the chart has screens that are not there any more: every look goes through
+/// them, so that the other room is the likelier by all looks together. The scans that see the other half tell the room by
+/// themselves, and are believed.
+#[test]
+fn a_scan_that_tells_its_place_by_itself_is_believed_over_the_way() {
+    let mut random = fastrand::Rng::with_seed(9);
+    let room = |x: f64, things: &[(f64, f64, f64, f64)]| -> Vec<Line> {
+        let inside = things.iter().flat_map(|&(dx, y, w, h)| rectangle(x + dx, y, w, h));
+        rectangle(x, 0.0, 600.0, 400.0).into_iter().chain(inside).collect()
+    };
+    let alike = [(480.0, 40.0, 60.0, 40.0), (520.0, 220.0, 40.0, 90.0)];
+    let own = [(60.0, 50.0, 70.0, 50.0), (40.0, 250.0, 50.0, 80.0)];
+    let others = [(120.0, 130.0, 40.0, 40.0), (30.0, 20.0, 40.0, 90.0)];
+    let mut seen = room(0.0, &[alike, own].concat());
+    seen.extend(room(2000.0, &[alike, others].concat()));
+    let truth = Chart::new(seen.clone());
+    for x in [250.0, 350.0] {
+        let ends = [20.0, 380.0].map(|y| Point2::new(x, y));
+        seen.push(Line { start: ends[0], end: ends[1], face: None });
+    }
+    let chart = Chart::new(seen);
+    let localiser = Localiser::new(&chart, Options::default());
+    let mut tracker = Tracker::new(&localiser);
+    let place = |turn: f64| Isometry2::new(nalgebra::Vector2::new(300.0, 200.0), turn);
+    let mut was_unsure = false;
+    for step in 0..8 {
+        let pose = place(f64::from(step) * 0.55);
+        let ranges = scan(&truth, &sensor(), &pose, &mut random);
+        let odometry = place(0.0).inv_mul(&pose);
+        tracker.scan(&sensor(), &ranges, odometry);
+        match tracker.belief() {
+            Belief::At(fit) => assert!(is_right(&fit.pose, &pose), "step {step}: {}", fit.pose),
+            _ => was_unsure = true,
+        }
+    }
+    assert!(was_unsure && matches!(tracker.belief(), Belief::At(_)), "{:?}", tracker.belief());
+}
