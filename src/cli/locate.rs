@@ -51,8 +51,7 @@ fn tell(common: &Common, found: &FoundScan) -> String {
     let telling = found.telling_in_words(lang.language()).map_or_else(String::new, |told| {
         format!(" {}: {told}.", lang.pick("Различить поможет", "What would tell"))
     });
-    if let Some(why) = found.unplaced {
-        let why = why.in_words(lang.language());
+    if let Some(why) = found.unknown_in_words(lang.language()) {
         let unknown = lang.pick("место неизвестно", "place unknown");
         return format!("{scan}{event}: {unknown}: {why}.{telling}");
     }

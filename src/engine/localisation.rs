@@ -24,7 +24,7 @@ pub struct FoundPose {
 
 /// Why it is not told where a scan was taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unplaced {
+enum Unplaced {
     /// Too little returned.
     TooLittle,
     /// Nothing on the map fits well enough.
@@ -45,7 +45,7 @@ pub struct FoundScan {
     /// None where no place is told; several where the scan cannot tell them apart, the best first.
     pub poses: Vec<FoundPose>,
     /// Why no place is told.
-    pub unplaced: Option<Unplaced>,
+    unplaced: Option<Unplaced>,
     /// Where several poses fit, the move that tells most of them apart.
     pub telling: Option<Move>,
     /// From which angle on it is told as a turn right round, degrees.
@@ -117,7 +117,7 @@ impl State {
 
 impl Unplaced {
     /// None where a place is told, or several are.
-    pub(super) fn of(belief: &Belief) -> Option<Self> {
+    fn of(belief: &Belief) -> Option<Self> {
         let Belief::Lost(why) = belief else { return None };
         Some(match why {
             Unknown::TooLittle => Self::TooLittle,
@@ -128,8 +128,7 @@ impl Unplaced {
     }
 
     /// One word for programs.
-    #[must_use]
-    pub fn code(self) -> &'static str {
+    fn code(self) -> &'static str {
         match self {
             Self::TooLittle => "too_little",
             Self::Nowhere => "nowhere",
@@ -139,8 +138,7 @@ impl Unplaced {
     }
 
     /// «то, что видно, на карте ни к чему не подходит».
-    #[must_use]
-    pub fn in_words(self, language: Language) -> String {
+    fn in_words(self, language: Language) -> String {
         let (russian, english) = match self {
             Self::TooLittle => {
                 ("видно слишком мало, чтобы узнать место", "too little is seen to know a place by")
@@ -172,7 +170,32 @@ impl FoundScan {
     /// Whether one place is told.
     #[must_use]
     pub fn is_unique(&self) -> bool {
-        self.unplaced.is_none() && self.poses.len() == 1
+        self.poses.len() == 1
+    }
+
+    /// One word for what is told: `unique`, `ambiguous`, or why no place is.
+    #[must_use]
+    pub fn outcome(&self) -> &'static str {
+        match self.unplaced {
+            Some(why) => why.code(),
+            None if self.is_unique() => "unique",
+            None => "ambiguous",
+        }
+    }
+
+    /// Where more places fit than are looked through: so many at least.
+    #[must_use]
+    pub fn at_least(&self) -> Option<usize> {
+        match self.unplaced? {
+            Unplaced::TooMany(least) => Some(least),
+            _ => None,
+        }
+    }
+
+    /// Why no place is told, where none is.
+    #[must_use]
+    pub fn unknown_in_words(&self, language: Language) -> Option<String> {
+        Some(self.unplaced?.in_words(language))
     }
 
     /// What was remarkable about the step from the scan before, where that was followed.

@@ -110,7 +110,7 @@ use given::in_rule_text;
 pub use history::When;
 pub use journey::Journey;
 pub use json::TaskEvents;
-pub use localisation::{FoundPose, FoundScan, Unplaced};
+pub use localisation::{FoundPose, FoundScan};
 pub use located::End;
 pub(crate) use narration::{counted_in_english, decimal, plan_in_words};
 pub use observe::{Believed, Source, Station};

@@ -6,7 +6,7 @@ use super::segments::segment;
 use super::values::{point, pose, round};
 use super::ways::whereabout;
 use crate::engine::differences::{Differing, ThingNews};
-use crate::engine::{Changes, FoundScan, Things, Unplaced, View, World};
+use crate::engine::{Changes, FoundScan, Things, View, World};
 use crate::map::{DoorStatus, Entity};
 use crate::vectors::Segment;
 
@@ -27,15 +27,8 @@ pub(crate) fn found_scans(world: &World, found: &[FoundScan]) -> Value {
         json!({
             "scan": found.scan,
             "line": found.line,
-            "found": match found.unplaced {
-                Some(why) => why.code(),
-                None if found.is_unique() => "unique",
-                None => "ambiguous",
-            },
-            "at_least": match found.unplaced {
-                Some(Unplaced::TooMany(least)) => Some(least),
-                _ => None,
-            },
+            "found": found.outcome(),
+            "at_least": found.at_least(),
             "event": found.event(),
             "telling_move": found.telling.map(|by| json!({
                 "turn_deg": round(by.turn.to_degrees()),
