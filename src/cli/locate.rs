@@ -38,7 +38,7 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
     }
     Ok(match log.faults() {
         Some(_) => Answer::Wrong,
-        None if found.iter().any(|scan| scan.is_unique) => Answer::Yes,
+        None if found.iter().any(|scan| scan.is_unique()) => Answer::Yes,
         None => Answer::No,
     })
 }
@@ -48,23 +48,21 @@ fn tell(common: &Common, found: &FoundScan) -> String {
     let scan = format!("{} {}", lang.pick("Скан", "Scan"), found.scan);
     let event = found.event_in_words(lang.language());
     let event = event.map_or_else(String::new, |event| format!(" ({event})"));
+    let telling = found.telling_in_words(lang.language()).map_or_else(String::new, |told| {
+        format!(" {}: {told}.", lang.pick("Различить поможет", "What would tell"))
+    });
+    if let Some(why) = found.unknown_in_words(lang.language()) {
+        let unknown = lang.pick("место неизвестно", "place unknown");
+        return format!("{scan}{event}: {unknown}: {why}.{telling}");
+    }
     let poses: Vec<String> = found.poses.iter().map(|pose| tell_pose(common, pose)).collect();
     match &poses[..] {
-        [] => format!("{scan}{event}: {}", lang.pick("неизвестно где", "place unknown")),
-        [only] if found.is_unique => format!("{scan}{event}: {only}"),
-        [only] => {
-            let open = lang.pick("не наверное", "not for certain");
-            format!("{scan}{event}: {open}, {only}")
-        }
+        [only] => format!("{scan}{event}: {only}"),
         several => {
             let head = match lang {
                 Lang::Ru => format!("одно из мест ({})", several.len()),
                 Lang::En => format!("one of {} places", several.len()),
             };
-            let telling = found.telling_in_words(lang.language());
-            let telling = telling.map_or_else(String::new, |told| {
-                format!(" {}: {told}.", lang.pick("Различить поможет", "What would tell"))
-            });
             format!("{scan}{event}: {head}: {}{telling}", several.join(" "))
         }
     }

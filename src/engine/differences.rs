@@ -203,7 +203,7 @@ fn found_on_map(
     match belief {
         Belief::At(fit) => vec![fit],
         Belief::OneOf(fits) => fits,
-        Belief::Lost => Vec::new(),
+        Belief::Lost(_) => Vec::new(),
     }
 }
 

@@ -1,7 +1,9 @@
 //! Where the scans of a log can have been taken, on the Map (SPEC L2, L3).
 
 use crate::language::Language;
-use crate::sensing::{Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, telling_move};
+use crate::sensing::{
+    Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, Unknown, telling_move,
+};
 use crate::units::{MapId, Pose};
 
 use super::news::move_in_words;
@@ -20,6 +22,19 @@ pub struct FoundPose {
     pub place: Option<Whereabout>,
 }
 
+/// Why it is not told where a scan was taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Unplaced {
+    /// Too little returned.
+    TooLittle,
+    /// Nothing on the map fits well enough.
+    Nowhere,
+    /// One place fits, and it is not sure.
+    Unsure,
+    /// More places fit than are looked through: so many at least.
+    TooMany(usize),
+}
+
 /// What one scan says of where it was taken.
 #[derive(Debug, Clone)]
 pub struct FoundScan {
@@ -27,10 +42,10 @@ pub struct FoundScan {
     pub scan: usize,
     /// Of the log, from 1.
     pub line: usize,
-    /// None where nothing fits; several where the scan cannot tell them apart, the best first.
+    /// None where no place is told; several where the scan cannot tell them apart, the best first.
     pub poses: Vec<FoundPose>,
-    /// Whether the first of them is the only one. One alone need not be: a corridor leaves a direction open.
-    pub is_unique: bool,
+    /// Why no place is told.
+    unplaced: Option<Unplaced>,
     /// Where several poses fit, the move that tells most of them apart.
     pub telling: Option<Move>,
     /// From which angle on it is told as a turn right round, degrees.
@@ -75,16 +90,13 @@ impl State {
             } else {
                 (localiser.locate(sensor, &told.ranges).into(), None)
             };
-            let (fits, is_unique) = match &answer {
-                Belief::At(fit) => (std::slice::from_ref(fit), true),
-                Belief::OneOf(fits) => (fits.as_slice(), false),
-                Belief::Lost => (&[][..], false),
-            };
             if is_asked {
-                let poses = fits.iter().map(|fit| self.found_pose(map, fit)).collect();
-                let telling = telling_move(&chart, fits, radius);
+                let unplaced = Unplaced::of(&answer);
+                let told_fits = answer.fits().iter().filter(|_| unplaced.is_none());
+                let poses = told_fits.map(|fit| self.found_pose(map, fit)).collect();
+                let telling = telling_move(&chart, answer.fits(), radius);
                 let line = told.line;
-                found.push(FoundScan { scan, line, poses, is_unique, telling, about, event });
+                found.push(FoundScan { scan, line, poses, unplaced, telling, about, event });
             }
         }
         Ok(found)
@@ -103,7 +115,89 @@ impl State {
     }
 }
 
+impl Unplaced {
+    /// None where a place is told, or several are.
+    fn of(belief: &Belief) -> Option<Self> {
+        let Belief::Lost(why) = belief else { return None };
+        Some(match why {
+            Unknown::TooLittle => Self::TooLittle,
+            Unknown::Nowhere => Self::Nowhere,
+            Unknown::Unsure => Self::Unsure,
+            Unknown::TooMany(fits) => Self::TooMany(fits.len()),
+        })
+    }
+
+    /// One word for programs.
+    fn code(self) -> &'static str {
+        match self {
+            Self::TooLittle => "too_little",
+            Self::Nowhere => "nowhere",
+            Self::Unsure => "unsure",
+            Self::TooMany(_) => "too_many",
+        }
+    }
+
+    /// «то, что видно, на карте ни к чему не подходит».
+    fn in_words(self, language: Language) -> String {
+        let (russian, english) = match self {
+            Self::TooLittle => {
+                ("видно слишком мало, чтобы узнать место", "too little is seen to know a place by")
+            }
+            Self::Nowhere => (
+                "то, что видно, на карте ни к чему не подходит: карта неверна, или это место вне её",
+                "what is seen fits nowhere on the map: the map is wrong, or that is off the map",
+            ),
+            Self::Unsure => (
+                "то, что видно, подходит к одному месту, но уверенности в нём нет",
+                "what is seen fits one place, but that is not sure",
+            ),
+            Self::TooMany(least) => {
+                return match language {
+                    Language::Russian => format!(
+                        "то, что видно, подходит к слишком многим местам (не меньше {least}): чтобы узнать место, надо проехать дальше"
+                    ),
+                    Language::English => format!(
+                        "what is seen fits too many places (at least {least}): it takes driving on to know which"
+                    ),
+                };
+            }
+        };
+        language.pick(russian, english).to_owned()
+    }
+}
+
 impl FoundScan {
+    /// Whether one place is told.
+    #[must_use]
+    pub fn is_unique(&self) -> bool {
+        self.poses.len() == 1
+    }
+
+    /// One word for what is told: `unique`, `ambiguous`, or why no place is.
+    #[must_use]
+    pub fn outcome(&self) -> &'static str {
+        match self.unplaced {
+            Some(why) => why.code(),
+            None if self.is_unique() => "unique",
+            None => "ambiguous",
+        }
+    }
+
+    /// Where more places fit than are looked through: so many at least.
+    #[must_use]
+    pub fn at_least(&self) -> Option<usize> {
+        match self.unplaced? {
+            Unplaced::TooMany(least) => Some(least),
+            _ => None,
+        }
+    }
+
+    /// Why no place is told, where none is.
+    #[must_use]
+    pub fn unknown_in_words(&self, language: Language) -> Option<String> {
+        Some(self.unplaced?.in_words(language))
+    }
+
     /// What was remarkable about the step from the scan before, where that was followed.
     #[must_use]
     pub fn event(&self) -> Option<&'static str> {
@@ -125,13 +219,13 @@ impl FoundScan {
     #[must_use]
     pub fn event_in_words(&self, language: Language) -> Option<&'static str> {
         let (russian, english) = match self.event? {
-            Event::Steady => return None,
+            // Why a place is not told stands in its stead.
+            Event::Steady | Event::Lost => return None,
             Event::Narrowed => ("мест стало меньше", "fewer places are left"),
             Event::GivenUp => (
                 "прежнее не подходит: робот перенесён, или одометрия солгала",
                 "what was believed does not fit: carried off, or the odometry lied",
             ),
-            Event::Lost => ("то, что видно, ни к чему не подходит", "what is seen fits nowhere"),
         };
         Some(language.pick(russian, english))
     }

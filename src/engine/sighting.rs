@@ -5,7 +5,7 @@ use crate::geometry::Blocker;
 use crate::language::Language;
 use crate::language::names::english_name;
 use crate::map::{Entity, World};
-use crate::sensing::{Bound, Chart, Localiser, Operative, Options};
+use crate::sensing::{Belief, Bound, Chart, Localiser, Operative, Options};
 use crate::units::{InOrder as _, MapId, Point, Pose};
 
 use super::{Drawing, Error, RequestError, Sighted, State};
@@ -44,12 +44,9 @@ impl State {
         let localiser = Localiser::new(&chart, Options::default());
         let poses: Vec<_> = match posed {
             false => {
-                let belief = localiser.locate(sensor, &told.ranges).into();
-                match belief {
-                    crate::sensing::Belief::At(fit) => vec![fit.pose],
-                    crate::sensing::Belief::OneOf(fits) => fits.iter().map(|f| f.pose).collect(),
-                    crate::sensing::Belief::Lost => Vec::new(),
-                }
+                let belief = Belief::from(localiser.locate(sensor, &told.ranges));
+                let told = belief.fits().iter().filter(|_| !matches!(belief, Belief::Lost(_)));
+                told.map(|fit| fit.pose).collect()
             }
             true => vec![told.pose.ok_or(RequestError::NoPose { line: told.line })?],
         };

@@ -15,7 +15,9 @@ use nalgebra::Isometry2;
 
 use crate::geometry::{FloorPlan, Polygon, Ride};
 use crate::map::{DoorState, World};
-use crate::sensing::{Belief, Chart, Fit, Inspector, Localiser, Options, Tracker, telling_move};
+use crate::sensing::{
+    Belief, Chart, Fit, Inspector, Localiser, Options, Tracker, Unknown, telling_move,
+};
 use crate::units::{
     AreaId, Bilingual, Deg, DoorId, Frame, Gather as _, MapId, Point, Pose, ReplicaId,
 };
@@ -234,7 +236,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
         self.tracker.scan(&sensor, &ranges, odometry);
         let mut fit = match self.tracker.belief() {
             Belief::At(fit) => Some(fit.clone()),
-            Belief::OneOf(_) | Belief::Lost => None,
+            Belief::OneOf(_) | Belief::Lost(_) => None,
         };
         self.doubts = match &fit {
             Some(fit) if fit.worth() >= DOUBTED => 0,
@@ -269,15 +271,14 @@ impl<'g, 'v> Pilot<'g, 'v> {
             if !self.is_lost {
                 return Ok(());
             }
-            let fits: Vec<Fit> = match self.tracker.belief() {
-                Belief::OneOf(fits) => fits.clone(),
-                _ => Vec::new(),
-            };
+            let belief = self.tracker.belief();
+            // Where more fits than can be looked through, every way on tells more than another look from there.
+            let goes_on = matches!(belief, Belief::Lost(Unknown::TooMany(_))) || number % 2 == 1;
             let radius = self.ground.world.robot.radius.get() + UNKNOWN;
             // From elsewhere it may see what it knows.
-            let telling = telling_move(self.chart(), &fits, radius)
+            let telling = telling_move(self.chart(), belief.fits(), radius)
                 .map(|by| (by.turn, by.ahead))
-                .or_else(|| self.open_way(radius).filter(|_| number % 2 == 1));
+                .or_else(|| self.open_way(radius).filter(|_| goes_on));
             let silent = &mut Watch::of(watch.stop());
             let looked = match telling {
                 Some((turn, ahead)) => {
@@ -307,9 +308,21 @@ impl<'g, 'v> Pilot<'g, 'v> {
                 "то, что он видит, подходит к нескольким местам",
                 "what it sees fits several places",
             ),
-            _ => nowhere(
-                "то, что он видит, на карте ни к чему не подходит",
-                "what it sees fits nowhere on the map",
+            Belief::Lost(Unknown::TooMany(_)) => nowhere(
+                "то, что он видит, подходит к слишком многим местам",
+                "what it sees fits too many places",
+            ),
+            Belief::Lost(Unknown::TooLittle) => nowhere(
+                "он видит слишком мало, чтобы узнать место",
+                "it sees too little to know a place by",
+            ),
+            Belief::At(_) | Belief::Lost(Unknown::Unsure) => nowhere(
+                "то, что он видит, подходит к одному месту, но не настолько, чтобы в этом быть уверенным",
+                "what it sees fits one place, but not so well as to be sure of it",
+            ),
+            Belief::Lost(Unknown::Nowhere) => nowhere(
+                "то, что он видит, на карте ни к чему не подходит: карта неверна, или он вне её",
+                "what it sees fits nowhere on the map: the map is wrong, or it is off the map",
             ),
         };
         Err(Unfinished::Failed(failure))

@@ -8,7 +8,9 @@
 
 use nalgebra::{Isometry2, Matrix3, Vector2};
 
-use super::locate::{APART, Answer, Fit, LEAST_RETURNS, Localiser, Sums, loosely, thinned};
+use super::locate::{
+    APART, Answer, Fit, LEAST_RETURNS, Localiser, Sums, Unknown, loosely, thinned,
+};
 use super::refine::{WIDE, refine};
 use super::search::{Mark, is_near};
 use crate::vectors::scan::Sensor;
@@ -50,7 +52,7 @@ impl Localiser<'_> {
 
     /// Where the last of some looks was taken.
     pub(crate) fn along(&self, looks: &[Look]) -> Answer {
-        let Some(last) = looks.last() else { return Answer::Unknown };
+        let Some(last) = looks.last() else { return Answer::Unknown(Unknown::TooLittle) };
         let from: Vec<Isometry2<f64>> = looks.iter().map(|l| last.at.inv_mul(&l.at)).collect();
         let all = || from.iter().zip(looks);
         let count: usize = looks.iter().map(|look| look.marks.len()).sum();
@@ -59,10 +61,7 @@ impl Localiser<'_> {
             .flat_map(|(by, look)| look.marks.iter().map(|mark| mark.moved(by)))
             .step_by(every)
             .collect();
-        let Some(found) = self.pyramid().search(&marks, LEAST, |_| WORSE, APART, MOST_PLACES)
-        else {
-            return Answer::Unknown;
-        };
+        let found = self.pyramid().search(&marks, LEAST, |_| WORSE, APART, MOST_PLACES);
         let weighed: Vec<Vec<Vector2<f64>>> =
             looks.iter().map(|look| thinned(&look.returns, WEIGHED)).collect();
         let whole: usize = weighed.iter().map(Vec::len).sum();
@@ -88,7 +87,7 @@ impl Localiser<'_> {
             sums.fit(pose, covariance)
         };
         let judged = |pose: Isometry2<f64>| (evidence(&pose, WEIGHED / FIRST), pose);
-        let rough: Vec<(f64, Isometry2<f64>)> = found.into_iter().map(judged).collect();
+        let rough: Vec<(f64, Isometry2<f64>)> = found.places.into_iter().map(judged).collect();
         let best = rough.iter().map(|(evidence, _)| *evidence).fold(f64::NEG_INFINITY, f64::max);
         let every = (whole / SEARCHED).max(1);
         let held: Vec<Vector2<f64>> = from
@@ -101,10 +100,14 @@ impl Localiser<'_> {
             .collect();
         let mut fits: Vec<(f64, Fit)> = Vec::new();
         let mut is_loose = false;
-        for (_, pose) in rough.into_iter().filter(|(evidence, _)| *evidence >= best - LEADS_ROUGHLY)
-        {
-            let exact = refine(self.chart(), &held, self.options().sigma, pose, WIDE)
-                .filter(|exact| is_near(&exact.pose, &pose, APART));
+        let exactly = |pose| {
+            refine(self.chart(), &held, self.options().sigma, pose, WIDE)
+                .filter(|exact| is_near(&exact.pose, &pose, APART))
+        };
+        let (likely, others): (Vec<_>, Vec<_>) =
+            rough.into_iter().partition(|(evidence, _)| *evidence >= best - LEADS_ROUGHLY);
+        for (_, pose) in likely {
+            let exact = exactly(pose);
             is_loose |= exact.is_none();
             let (pose, covariance) = exact.map_or((pose, loosely()), |e| (e.pose, e.covariance));
             let (evidence, fit) = (evidence(&pose, 1), fit(pose, covariance));
@@ -116,13 +119,26 @@ impl Localiser<'_> {
         }
         fits.sort_by(|a, b| b.0.total_cmp(&a.0));
         let Some(best) = fits.first().map(|(evidence, _)| *evidence) else {
-            return Answer::Unknown;
+            return Answer::Unknown(Unknown::Nowhere);
         };
-        fits.retain(|(evidence, _)| *evidence >= best - LEADS);
+        // What the chart has and is not there any more bars the right place from all looks that went through it, so that another is
+        // the likelier by far: then that explains less.
+        let worth = fits[0].1.worth();
+        fits.retain(|(evidence, fit)| *evidence >= best - LEADS || fit.worth() > worth);
         let mut fits: Vec<Fit> = fits.into_iter().map(|(_, fit)| fit).collect();
-        match fits.len() {
-            1 if is_loose || fits[0].explained < SURE => Answer::Unknown,
-            1 => Answer::Unique(fits.swap_remove(0)),
+        if fits.len() == 1 {
+            let better = |(_, pose): (f64, Isometry2<f64>)| {
+                let near = fit(pose, loosely()).worth() > worth - self.options().margin;
+                let exact = exactly(pose).filter(|_| near)?;
+                Some(fit(exact.pose, exact.covariance)).filter(|fit| fit.worth() > worth)
+            };
+            fits.extend(others.into_iter().filter_map(better));
+        }
+        match &fits[..] {
+            _ if !found.is_all => Answer::Unknown(Unknown::TooMany(fits)),
+            [only] if only.explained < SURE => Answer::Unknown(Unknown::Unsure),
+            [_] if is_loose => Answer::Unknown(Unknown::TooMany(fits)),
+            [_] => Answer::Unique(fits.swap_remove(0)),
             _ => Answer::Ambiguous(fits),
         }
     }

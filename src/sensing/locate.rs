@@ -54,8 +54,22 @@ pub enum Answer {
     Unique(Fit),
     /// At one of these, the best first.
     Ambiguous(Vec<Fit>),
-    /// At none that the chart knows, or at more than can be told.
-    Unknown,
+    /// No place is told.
+    Unknown(Unknown),
+}
+
+/// Why no place is told.
+#[derive(Debug, Clone)]
+pub enum Unknown {
+    /// Too little returned to say anything.
+    TooLittle,
+    /// At no place does what the chart has explain enough of what is seen: the chart is another, or the place is off it.
+    Nowhere,
+    /// One place is left, and it fits too little to be told, or the next scan has yet to lead there again.
+    Unsure,
+    /// At one of these, the best first, or at others, of which there are too many to be looked through, or one wherever it slides
+    /// along a corridor. A robot that moves on sees more.
+    TooMany(Vec<Fit>),
 }
 
 /// When a pose counts.
@@ -94,6 +108,8 @@ pub(crate) const APART: f64 = 60.0;
 const SUMMED: f64 = 2.0 / 3.0;
 /// Places of which more are no answer.
 const MOST_PLACES: usize = 200;
+/// Of more than these so many are looked at, and told of.
+const SOME: usize = 16;
 /// How far a beam ends from what it strikes, in cm and as a share of its range: the chart's errors, and the pose's.
 const NEAR: (f64, f64) = (4.0, 0.005);
 /// A place that is alone in fitting is the one only where it fits so well: where a map lacks furniture or is drawn otherwise, the
@@ -164,24 +180,32 @@ impl<'c> Localiser<'c> {
     pub fn locate(&self, sensor: &Sensor, ranges: &[f64]) -> Answer {
         let returns = self.returns(sensor, ranges);
         if returns.len() < LEAST_RETURNS {
-            return Answer::Unknown;
+            return Answer::Unknown(Unknown::TooLittle);
         }
         let marks = self.marks(sensor, ranges, &returns);
         let Options { least, margin, .. } = self.options;
         // What the best leaves unexplained the chart lacks there: it may lack as much again where the scan was truly taken.
         let worse = |best: f64| f64::max(SUMMED * margin, 1.0 - best);
         let found = self.pyramid.search(&marks, 0.8 * least, worse, APART, MOST_PLACES);
-        let Some(found) = found else { return Answer::Unknown };
+        if !found.is_all {
+            return self.among_many(sensor, ranges, found.places);
+        }
         let some: Vec<Vector2<f64>> = marks.iter().map(|mark| mark.at).collect();
         let roughly = |candidate| self.fit(sensor, ranges, &some, candidate, WIDE);
-        let rough: Vec<Option<Fit>> = found.into_iter().map(roughly).collect();
-        let mut is_loose = rough.iter().any(Option::is_none);
-        let best = rough.iter().flatten().map(Fit::rank).fold(-1.0, f64::max);
+        // What holds a pose, and where what could slide along a corridor was found.
+        let (mut rough, mut loose): (Vec<Fit>, Vec<Isometry2<f64>>) = Default::default();
+        for place in found.places {
+            match roughly(place) {
+                Some(fit) => rough.push(fit),
+                None => loose.push(place),
+            }
+        }
+        let best = rough.iter().map(Fit::rank).fold(-1.0, f64::max);
         let mut judged: Vec<(f64, Fit)> = Vec::new();
-        for fit in rough.iter().flatten().filter(|fit| fit.rank() >= best - 1.5 * margin) {
+        for fit in rough.iter().filter(|fit| fit.rank() >= best - 1.5 * margin) {
             let refined = refine(self.chart, &returns, self.options.sigma, fit.pose, WIDE);
             let Some(refined) = refined else {
-                is_loose = true;
+                loose.push(fit.pose);
                 continue;
             };
             let sums = self.sums(sensor, ranges, &refined.pose);
@@ -198,21 +222,53 @@ impl<'c> Localiser<'c> {
         // The likeliest is told first; the only one it is where none fits nearly as well by what is explained either: on a plan
         // that is not exact a wrong place may be the likeliest by far.
         let mut fits: Vec<Fit> = judged.into_iter().map(|(_, fit)| fit).collect();
-        let Some(likeliest) = fits.first().map(|fit| fit.pose) else { return Answer::Unknown };
-        fits.retain(|fit| fit.pose == likeliest || fit.rank() >= first - margin);
-        let best = &fits[0];
-        if best.explained < least || best.worth() < least - margin {
-            return Answer::Unknown;
+        if let Some(likeliest) = fits.first().map(|fit| fit.pose) {
+            fits.retain(|fit| fit.pose == likeliest || fit.rank() >= first - margin);
         }
         // What could slide along a corridor may be anywhere in it.
-        if is_loose && fits.len() == 1 {
-            return Answer::Unknown;
+        if fits.len() <= 1 && !loose.is_empty() {
+            let held = fits.into_iter().map(|fit| fit.pose);
+            return self.among_many(sensor, ranges, held.chain(loose));
         }
-        match fits.len() {
-            1 if fits[0].worth() < SURE => Answer::Unknown,
-            1 => Answer::Unique(fits.swap_remove(0)),
+        match &fits[..] {
+            [] => Answer::Unknown(Unknown::Nowhere),
+            [best, ..] if !self.explains(best) => Answer::Unknown(Unknown::Nowhere),
+            [only] if only.worth() < SURE => Answer::Unknown(Unknown::Unsure),
+            [_] => Answer::Unique(fits.swap_remove(0)),
             _ => Answer::Ambiguous(fits),
         }
+    }
+
+    /// What fits at more places than are looked through, or all along a corridor: some of these, the best first.
+    fn among_many(
+        &self,
+        sensor: &Sensor,
+        ranges: &[f64],
+        places: impl IntoIterator<Item = Isometry2<f64>>,
+    ) -> Answer {
+        let returns = self.returns(sensor, ranges);
+        let mut fits: Vec<Fit> = Vec::new();
+        for place in places {
+            let fit = self
+                .fit(sensor, ranges, &returns, place, WIDE)
+                .unwrap_or_else(|| self.fit_at(sensor, ranges, place, loosely()));
+            let is_known = fits.iter().any(|known| is_near(&known.pose, &fit.pose, APART));
+            if self.explains(&fit) && !is_known {
+                fits.push(fit);
+            }
+            if fits.len() == SOME {
+                break;
+            }
+        }
+        fits.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
+        let why = if fits.is_empty() { Unknown::Nowhere } else { Unknown::TooMany(fits) };
+        Answer::Unknown(why)
+    }
+
+    /// Whether a place explains enough to be one.
+    fn explains(&self, fit: &Fit) -> bool {
+        let Options { least, margin, .. } = self.options;
+        fit.explained >= least && fit.worth() >= least - margin
     }
 
     /// Some of the returns, each with the course of the line that it is seen to lie on, if on any.

@@ -10,7 +10,7 @@
 //! # Invariants
 //!
 //! - *Nothing is passed over.* The search (`search`) goes through all poses of the raster by branch and bound: what it
-//!   leaves out cannot fit better than what it keeps. A search that was cut off answers [`Answer::Unknown`].
+//!   leaves out cannot fit better than what it keeps. A search that was cut off answers [`Unknown::TooMany`].
 //! - *What the chart lacks at one place it may lack at another.* The search keeps every place that is worse than the
 //!   best by no more than the best itself leaves unexplained. Along a way the likelihood of all beams decides among them;
 //!   of one scan it puts them in order, and one is told alone only where it leads by the share explained as well.
@@ -37,7 +37,7 @@ mod track;
 pub use chart::{Chart, Line};
 pub use differences::{Differences, DoorSeen, Inspector, ThingLook, ThingSeen, Unmapped};
 pub use discern::{Move, telling_move};
-pub use locate::{Answer, Fit, Localiser, Options};
+pub use locate::{Answer, Fit, Localiser, Options, Unknown};
 pub use operative::{Bound, Operative};
 pub use raster::{CellState, Raster};
 pub use track::{Belief, Event, Tracker};

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry2, Matrix3};
 
 use super::along::Look;
-use super::locate::{Answer, Fit, Localiser, loosely};
+use super::locate::{Answer, Fit, Localiser, Unknown, loosely};
 use super::search::is_near;
 use crate::vectors::scan::Sensor;
 
@@ -14,8 +14,20 @@ pub enum Belief {
     At(Fit),
     /// Any of these, the best first.
     OneOf(Vec<Fit>),
-    /// None: it was never found, or what was believed does not fit any more.
-    Lost,
+    /// None is told: it was never found, or what was believed does not fit any more.
+    Lost(Unknown),
+}
+
+impl Belief {
+    /// The poses that are possible, as far as they were looked through, the best first.
+    #[must_use]
+    pub fn fits(&self) -> &[Fit] {
+        match self {
+            Self::At(fit) => std::slice::from_ref(fit),
+            Self::OneOf(fits) | Self::Lost(Unknown::TooMany(fits)) => fits,
+            Self::Lost(_) => &[],
+        }
+    }
 }
 
 impl From<Answer> for Belief {
@@ -23,7 +35,7 @@ impl From<Answer> for Belief {
         match answer {
             Answer::Unique(fit) => Self::At(fit),
             Answer::Ambiguous(fits) => Self::OneOf(fits),
-            Answer::Unknown => Self::Lost,
+            Answer::Unknown(why) => Self::Lost(why),
         }
     }
 }
@@ -37,7 +49,7 @@ pub enum Event {
     Narrowed,
     /// Nothing that was believed fits any more: a robot carried off, or odometry that lied.
     GivenUp,
-    /// Nothing fits.
+    /// No place is told: [`Belief::Lost`] has why.
     Lost,
 }
 
@@ -68,7 +80,7 @@ impl<'l> Tracker<'l> {
     pub fn new(localiser: &'l Localiser<'l>) -> Self {
         Self {
             localiser,
-            belief: Belief::Lost,
+            belief: Belief::Lost(Unknown::TooLittle),
             last: None,
             looks: Vec::new(),
             likely: None,
@@ -107,13 +119,22 @@ impl<'l> Tracker<'l> {
         let by = self.last.map(|last| last.inverse() * odometry);
         self.last = Some(odometry);
         match (&self.belief, by) {
-            (Belief::At(fit), Some(by)) => self.follow(sensor, ranges, fit.pose * by),
+            (Belief::At(fit), Some(by)) => {
+                let pose = fit.pose * by;
+                if self.follow(sensor, ranges, pose) {
+                    return Event::Steady;
+                }
+                // The same scan tells where else it may be.
+                self.belief = Belief::Lost(Unknown::Nowhere);
+                self.look_about(sensor, ranges, odometry, Isometry2::identity());
+                Event::GivenUp
+            }
             _ => self.look_about(sensor, ranges, odometry, by.unwrap_or_default()),
         }
     }
 
     /// Whether the place that is believed still fits.
-    fn follow(&mut self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> Event {
+    fn follow(&mut self, sensor: &Sensor, ranges: &[f64], pose: Isometry2<f64>) -> bool {
         // In a corridor the scan holds no pose along it: odometry does, for a while.
         let fit = self.localiser.close_to(sensor, ranges, pose);
         let fit = fit
@@ -124,11 +145,10 @@ impl<'l> Tracker<'l> {
         self.doubts = if is_doubted { self.doubts + 1 } else { 0 };
         self.belief = Belief::At(fit);
         if self.doubts < PATIENCE {
-            return Event::Steady;
+            return true;
         }
-        self.belief = Belief::Lost;
         self.doubts = 0;
-        Event::GivenUp
+        false
     }
 
     /// Where the place is not known: what it saw along the way, together. By single scans that speak against one place after
@@ -144,19 +164,21 @@ impl<'l> Tracker<'l> {
             let way = last.at.inv_mul(&odometry);
             way.translation.vector.norm() >= STEP.0 || way.rotation.angle().abs() >= STEP.1
         });
-        let is_alone = self.looks.len() == 1 && matches!(self.belief, Belief::Lost);
+        let is_alone = self.looks.len() == 1 && matches!(self.belief, Belief::Lost(_));
         self.likely = self.likely.map(|pose| pose * by);
         if !is_new && !is_alone {
-            if let Belief::OneOf(fits) = &mut self.belief {
+            if let Belief::OneOf(fits) | Belief::Lost(Unknown::TooMany(fits)) = &mut self.belief {
                 fits.iter_mut().for_each(|fit| fit.pose *= by);
             }
-            return if matches!(self.belief, Belief::Lost) { Event::Lost } else { Event::Steady };
+            let is_lost = matches!(self.belief, Belief::Lost(_));
+            return if is_lost { Event::Lost } else { Event::Steady };
         }
         if !is_new {
             self.looks.clear();
         }
         let before = match &self.belief {
             Belief::OneOf(fits) => fits.len(),
+            Belief::Lost(Unknown::TooMany(_)) => usize::MAX,
             _ => 0,
         };
         self.looks.extend(self.localiser.look(sensor, ranges, odometry));
@@ -184,7 +206,7 @@ impl<'l> Tracker<'l> {
         self.belief = match answer {
             Answer::Unique(fit) if !is_confirmed(&fit) => {
                 self.likely = Some(fit.pose);
-                Belief::Lost
+                Belief::Lost(Unknown::Unsure)
             }
             Answer::Unique(fit) => {
                 self.likely = None;
@@ -206,7 +228,7 @@ impl<'l> Tracker<'l> {
             }
             Belief::OneOf(fits) if fits.len() < before => Event::Narrowed,
             Belief::OneOf(_) => Event::Steady,
-            Belief::Lost => Event::Lost,
+            Belief::Lost(_) => Event::Lost,
         }
     }
 }

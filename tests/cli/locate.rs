@@ -53,3 +53,36 @@ fn scans_are_found_where_they_were_taken() {
     assert!(told.out.contains("Я нахожусь в "), "{}", told.out);
     place.run(&["locate", "drive.log", "--scan", "9"]).is(2);
 }
+
+/// Half a turn of so many beams, each as long as told, in cm.
+fn half_turn(range: impl Fn(f64) -> f64) -> String {
+    let mut text = String::from("FLASER 181");
+    for beam in 0..181 {
+        let _ = write!(text, " {:.3}", range(f64::from(beam - 90).to_radians()) / 100.0);
+    }
+    text + " 0 0 0 0 0 0 1 host 1\n"
+}
+
+/// A short piece of a wall straight ahead fits wherever there is one: too many places. A round room is nowhere on the map. A laser in fog sees
+/// too little.
+#[test]
+fn a_scan_that_fits_too_many_places_is_told_apart_from_one_that_fits_nowhere() {
+    let place = Place::with_rb2();
+    let is_wall = |bearing: f64| bearing.abs() < 40_f64.to_radians();
+    let wall = half_turn(|bearing| if is_wall(bearing) { 40.0 / bearing.cos() } else { 8190.0 });
+    place.write("odd.log", wall + &half_turn(|_| 170.0) + &half_turn(|_| 8190.0));
+    let found = place.json(&["locate", "odd.log"], 1)["found"].clone();
+    let of = |scan: usize, key: &str| found[scan][key].clone();
+    let kinds: Vec<_> = (0..3).map(|scan| of(scan, "found")).collect();
+    assert_eq!(kinds, ["too_many", "nowhere", "too_little"], "{found}");
+    assert!(of(0, "at_least").as_u64() > Some(1) && of(1, "at_least").is_null(), "{found}");
+    let told = place.run(&["locate", "odd.log"]).is(1).out;
+    for said in ["слишком многим местам (не меньше ", "ни к чему не подходит", "слишком мало"]
+    {
+        assert!(told.contains(said), "{told}");
+    }
+    let told = place.run(&["locate", "odd.log", "--lang", "en"]).is(1).out;
+    for said in ["too many places (at least ", "fits nowhere on the map", "too little is seen"] {
+        assert!(told.contains(said), "{told}");
+    }
+}

@@ -27,11 +27,8 @@ pub(crate) fn found_scans(world: &World, found: &[FoundScan]) -> Value {
         json!({
             "scan": found.scan,
             "line": found.line,
-            "found": match (found.is_unique, found.poses.is_empty()) {
-                (true, _) => "unique",
-                (false, false) => "ambiguous",
-                (false, true) => "unknown",
-            },
+            "found": found.outcome(),
+            "at_least": found.at_least(),
             "event": found.event(),
             "telling_move": found.telling.map(|by| json!({
                 "turn_deg": round(by.turn.to_degrees()),

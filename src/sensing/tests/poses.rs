@@ -3,7 +3,9 @@
 
 use nalgebra::{Isometry2, Point2};
 
-use orthoframe_sensing::{Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker};
+use orthoframe_sensing::{
+    Answer, Belief, Chart, Event, Line, Localiser, Options, Tracker, Unknown,
+};
 use orthoframe_vectors::scan::{Noise, Sensor};
 
 fn sensor() -> Sensor {
@@ -71,7 +73,7 @@ fn what_is_unique_is_right() {
                     );
                     several += 1;
                 }
-                Answer::Unknown => {}
+                Answer::Unknown(_) => {}
             }
         }
     }
@@ -179,8 +181,67 @@ fn whatever_a_sensor_brings_ends_in_an_answer() {
         let answer = localiser.locate(&sensor(), &vec![value; count]);
         assert!(!matches!(answer, Answer::Unique(_)), "{value}");
     }
-    assert!(matches!(localiser.locate(&sensor(), &[]), Answer::Unknown));
+    let nothing = localiser.locate(&sensor(), &[]);
+    assert!(matches!(nothing, Answer::Unknown(Unknown::TooLittle)));
     let nothing = Chart::new(Vec::new());
     let localiser = Localiser::new(&nothing, Options::default());
-    assert!(matches!(localiser.locate(&sensor(), &vec![100.0; count]), Answer::Unknown));
+    let answer = localiser.locate(&sensor(), &vec![100.0; count]);
+    assert!(matches!(answer, Answer::Unknown(Unknown::Nowhere)));
+}
+
+/// Rooms all alike, too many to be looked through: a scan in one of them fits too many places, and one of a round room, which
+/// the chart has not, fits nowhere.
+#[test]
+fn what_fits_too_many_places_is_told_apart_from_what_fits_nowhere() {
+    let mut random = fastrand::Rng::with_seed(5);
+    let rooms = (0..256).map(|n| (f64::from(n % 16) * 330.0, f64::from(n / 16) * 230.0));
+    let lines: Vec<Line> = rooms.flat_map(|(x, y)| rectangle(x, y, 300.0, 200.0)).collect();
+    let chart = Chart::new(lines);
+    let localiser = Localiser::new(&chart, Options::default());
+    let pose = Isometry2::new(nalgebra::Vector2::new(3.0 * 330.0 + 90.0, 5.0 * 230.0 + 70.0), 0.4);
+    let ranges = scan(&chart, &sensor(), &pose, &mut random);
+    let answer = localiser.locate(&sensor(), &ranges);
+    let Answer::Unknown(Unknown::TooMany(fits)) = &answer else { panic!("{answer:?}") };
+    assert!(fits.len() >= 10 && fits.iter().all(|fit| fit.explained > 0.9), "{answer:?}");
+    let round: Vec<f64> = vec![240.0; sensor().count()];
+    let answer = localiser.locate(&sensor(), &round);
+    assert!(matches!(answer, Answer::Unknown(Unknown::Nowhere)), "{answer:?}");
+}
+
+/// Two rooms alike in one half. In the right one the chart has screens that are not there any more: every look goes through
+/// them, so that the other room is the likelier by all looks together, by far. It is never told all the same, and the right
+/// one is in the end, when the scans see the other half.
+#[test]
+fn screens_that_are_gone_make_no_other_room_the_only_one() {
+    let mut random = fastrand::Rng::with_seed(9);
+    let room = |x: f64, things: &[(f64, f64, f64, f64)]| -> Vec<Line> {
+        let inside = things.iter().flat_map(|&(dx, y, w, h)| rectangle(x + dx, y, w, h));
+        rectangle(x, 0.0, 600.0, 400.0).into_iter().chain(inside).collect()
+    };
+    let alike = [(480.0, 40.0, 60.0, 40.0), (520.0, 220.0, 40.0, 90.0)];
+    let own = [(60.0, 50.0, 70.0, 50.0), (40.0, 250.0, 50.0, 80.0)];
+    let others = [(120.0, 130.0, 40.0, 40.0), (30.0, 20.0, 40.0, 90.0)];
+    let mut seen = room(0.0, &[alike, own].concat());
+    seen.extend(room(2000.0, &[alike, others].concat()));
+    let truth = Chart::new(seen.clone());
+    for x in [250.0, 350.0] {
+        let ends = [20.0, 380.0].map(|y| Point2::new(x, y));
+        seen.push(Line { start: ends[0], end: ends[1], face: None });
+    }
+    let chart = Chart::new(seen);
+    let localiser = Localiser::new(&chart, Options::default());
+    let mut tracker = Tracker::new(&localiser);
+    let place = |turn: f64| Isometry2::new(nalgebra::Vector2::new(300.0, 200.0), turn);
+    let mut was_unsure = false;
+    for step in 0..8 {
+        let pose = place(f64::from(step) * 0.55);
+        let ranges = scan(&truth, &sensor(), &pose, &mut random);
+        let odometry = place(0.0).inv_mul(&pose);
+        tracker.scan(&sensor(), &ranges, odometry);
+        match tracker.belief() {
+            Belief::At(fit) => assert!(is_right(&fit.pose, &pose), "step {step}: {}", fit.pose),
+            _ => was_unsure = true,
+        }
+    }
+    assert!(was_unsure && matches!(tracker.belief(), Belief::At(_)), "{:?}", tracker.belief());
 }

@@ -17,7 +17,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use nalgebra::Isometry2;
-use orthoframe_sensing::{Answer, Belief, Chart, Fit, Localiser, Options, Tracker};
+use orthoframe_sensing::{Answer, Belief, Chart, Fit, Localiser, Options, Tracker, Unknown};
 use orthoframe_vectors::read::{Log, Scan, read_log, read_source};
 
 use plan::Plan;
@@ -152,7 +152,10 @@ struct Tally {
     holds: usize,
     /// The best fit is right, unique or not.
     first: usize,
+    /// No place is told: nothing fits, more does than is looked through, or it is not sure.
     unknown: usize,
+    nowhere: usize,
+    too_many: usize,
     /// Taken in no room of the plan, and those of them that were told a place.
     outside: usize,
     astray: usize,
@@ -181,7 +184,11 @@ impl Tally {
         let fits = match answer {
             Answer::Unique(fit) => std::slice::from_ref(fit),
             Answer::Ambiguous(fits) => fits,
-            Answer::Unknown => &[],
+            Answer::Unknown(why) => {
+                self.nowhere += usize::from(matches!(why, Unknown::Nowhere));
+                self.too_many += usize::from(matches!(why, Unknown::TooMany(_)));
+                &[]
+            }
         };
         let is_outside = matches!(rooms, Some((None, _)));
         if let Some((Some(room), of)) = rooms {
@@ -223,13 +230,15 @@ impl Tally {
 
     fn tell(&mut self) {
         println!(
-            "{} scans: unique {}, of these right {}; several {}, of these with the right one {}; unknown {}; the best fit right of {}",
+            "{} scans: unique {}, of these right {}; several {}, of these with the right one {}; unknown {} (too many {}, nowhere {}); the best fit right of {}",
             self.times.len(),
             self.unique,
             self.right,
             self.several,
             self.holds,
             self.unknown,
+            self.too_many,
+            self.nowhere,
             self.first
         );
         if self.inside > 0 {
