@@ -152,12 +152,18 @@ impl Unplaced {
                 "what is seen fits one place, but that is not sure",
             ),
             Self::TooMany(least) => {
+                // One that slides along a corridor is as many as one likes.
+                let at_least = match (least > 1, language) {
+                    (false, _) => String::new(),
+                    (true, Language::Russian) => format!(" (не меньше {least})"),
+                    (true, Language::English) => format!(" (at least {least})"),
+                };
                 return match language {
                     Language::Russian => format!(
-                        "то, что видно, подходит к слишком многим местам (не меньше {least}): чтобы узнать место, надо проехать дальше"
+                        "то, что видно, подходит к слишком многим местам{at_least}: чтобы узнать место, надо проехать дальше"
                     ),
                     Language::English => format!(
-                        "what is seen fits too many places (at least {least}): it takes driving on to know which"
+                        "what is seen fits too many places{at_least}: it takes driving on to know which"
                     ),
                 };
             }

@@ -465,13 +465,44 @@ fn left_alone(said: &Said) -> Option<String> {
     let rest = (from..at).any(|n| {
         said.is(n, &REST) || said.keys[n].starts_with("друг") || said.keys[n].starts_with("остальн")
     });
-    match from == at || rest {
+    // "Leave the bowl where it is and bring the cup" leaves out nothing of what is brought.
+    let ordered = Said::new(whole.clone());
+    let may_be = ordered.keys.iter().any(|key| is_of_several(key))
+        || (from..at)
+            .filter(|n| !said.is(*n, &["the"]))
+            .any(|n| ordered.keys.iter().any(|key| is_akin(&said.keys[n], key)));
+    match from == at || rest || !may_be {
         true => Some(whole),
         false => {
             let except = if english { "except" } else { "кроме" };
             Some(format!("{whole} {except} {}", said.of(&(from..at))))
         }
     }
+}
+
+/// Whether a word says that something is done with all of its kind.
+fn is_of_several(key: &str) -> bool {
+    const ALL: [&str; 11] = [
+        "all",
+        "both",
+        "every",
+        "each",
+        "everything",
+        "все",
+        "всех",
+        "обе",
+        "оба",
+        "каждую",
+        "каждый",
+    ];
+    ALL.contains(&key)
+}
+
+/// Whether two words are forms of one: «книги», «Книгу-4».
+fn is_akin(one: &str, other: &str) -> bool {
+    let shared = one.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();
+    let shorter = one.chars().count().min(other.chars().count());
+    shared >= 3 && shared + 2 >= shorter
 }
 
 /// «Карандаш – на комод, книгу – на кровать»: things and whither each goes, without a verb.
