@@ -145,7 +145,14 @@ async function history() {
   if (proposals) S.proposals = proposals.proposals;
   side();
 }
+// Counts what is looked back at: what was asked for before the newest shows nothing any more.
 let looked = 0;
+async function compared(from, to) {
+  const mine = ++looked;
+  if (from === null) S.changes = null;
+  else await compare(from, to, () => mine === looked);
+  if (mine === looked) { over(); paint(); }
+}
 async function asOf(revision) {
   const mine = ++looked;
   S.asOf = revision >= S.state.revision ? null : revision; S.changes = null;
@@ -154,7 +161,7 @@ async function asOf(revision) {
   // What has become of it since is marked when the slider rests.
   await new Promise((done) => { setTimeout(done, 400); });
   if (mine !== looked || S.asOf === null) return;
-  await compare(S.asOf, S.state.revision);
+  await compare(S.asOf, S.state.revision, () => mine === looked);
   if (mine === looked) { over(); paint(); }
 }
 async function everything() {
@@ -233,7 +240,7 @@ const acts = {
     note({ q: L(`Почему ${found.holds ? '' : 'не '}так: ${relation.toLowerCase().replaceAll('_', ' ')} (${of.map(N).join(', ')})?`, `Why ${found.holds ? '' : 'not '}${relation.toLowerCase().replaceAll('_', ' ')} (${of.map(N).join(', ')})?`), lines: [found.words, ...found.measures.map((m) => m.text).filter((text) => text && !found.words.includes(text))] });
     S.reason = { ...found, relation, other }; announce(found.words); side(true); paint();
   },
-  compare: async (from, to) => { if (from === null) { S.changes = null; over(); paint(); return; } await compare(from, to); over(); paint(); },
+  compare: compared,
   judge: async (id, verdict) => { await change(`/api/edits/${encodeURIComponent(id)}`, { verdict }); history(); },
   shut: edit.shut, ends: edit.ends,
   cancel: (id) => attempt(() => api(`/api/tasks/${id}/cancel`, {})),
@@ -249,7 +256,7 @@ const acts = {
   redo: async () => { const done = await change('/api/redo'); if (done) announce(L('Возвращено', 'Redone')); },
   restore: async () => { if (await change('/api/restore', { revision: S.asOf })) asOf(Infinity); },
   decide: async (name, verdict) => { await change(`/api/proposals/${encodeURIComponent(name)}`, { verdict }); history(); },
-  told: async (one) => { if (one.told) { one.told = null; S.changes = null; over(); paint(); } else { if (one.revision > 1) compare(one.revision - 1, one.revision).then(() => { over(); paint(); }); const all = await attempt(() => ask('/api/diff', { from: one.revision - 1, to: one.revision })); one.told = all?.differences; } side(); },
+  told: async (one) => { if (one.told) { one.told = null; compared(null); } else { if (one.revision > 1) compared(one.revision - 1, one.revision); const all = await attempt(() => ask('/api/diff', { from: one.revision - 1, to: one.revision })); one.told = all?.differences; } side(); },
   asOf: (revision) => asOf(revision),
   invite: async (role) => { const given = await attempt(() => api('/api/invite', { role, name: role })); if (given) { S.invited = `${location.origin}/?token=${given.token}`; side(); } },
 };

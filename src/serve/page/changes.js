@@ -12,10 +12,10 @@ const shape = (one) => JSON.stringify([one.polygons?.map(bare) ?? null, one.z ??
 const rest = ({ box, frame, m2, middle, rule, rule_en, in_force, polygons, rooms, leaves, arcs, opening, ...one }) => JSON.stringify(one);
 const drawn = (revision) => ask('/api/drawing', { map: S.map, ...(revision === S.state.revision ? {} : { as_of: revision }) }).catch(() => null);
 
-/** Compares the storey at two revisions, and has the map show it. */
-export async function compare(from, to) {
+/** Compares the storey at two revisions, and has the map show it, where nothing else was asked for meanwhile. */
+export async function compare(from, to, isNewest) {
   const map = S.map, [was, is] = await Promise.all([drawn(from), drawn(to)]);
-  if (S.map !== map || !was || !is) return;
+  if (S.map !== map || !was || !is || !isNewest()) return;
   const marks = [];
   for (const sort of SORTS) {
     const before = new Map((was[sort] ?? []).filter((one) => one.id).map((one) => [one.id, one]));
