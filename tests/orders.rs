@@ -666,6 +666,11 @@ fn what_is_to_be_left_alone_is_not_done() {
             ["Book 2", "Книгу-2", "Книги-2"],
         ),
         ("Close all the doors", "Закрой все двери", ["Door VZ", "Дверь-ВZ", "Двери-ВZ"]),
+        (
+            "Bring everything from Table 1 to the sofa",
+            "Отнеси всё со Стола-1 на диван",
+            ["Cup 1", "Чашку-1", "Чашки-1"],
+        ),
     ];
     let mut understood = 0;
     for (english, russian, [name, accusative, genitive]) in orders {

@@ -440,36 +440,24 @@ fn left_alone(said: &Said) -> Option<String> {
     let whole = [before, after].into_iter().filter(|p| !p.is_empty()).collect::<Vec<_>>();
     let whole = whole.join(", ");
     // "… all the books, but leave Book 4 where it is": what is left is no part of what is done.
-    let small = |n: usize| {
-        const SMALL: [&str; 9] =
-            ["leave", "but", "just", "only", "please", "но", "а", "только", "оставь"];
-        matches!(said.meaning(n), Some((_, Meaning::And))) || said.is(n, &SMALL)
-    };
+    let idle = |n: usize| matches!(said.meaning(n), Some((_, Meaning::And | Meaning::Filler)));
+    let small = |n: usize| idle(n) || said.is(n, &["leave", "оставь"]);
     let from = (begin..at).find(|n| !small(*n)).unwrap_or(at);
-    const REST: [&str; 14] = [
-        "it",
-        "them",
-        "that",
-        "those",
-        "this",
-        "these",
-        "rest",
-        "other",
-        "others",
-        "ее",
-        "его",
-        "их",
-        "это",
-        "другая",
+    const REST: [&str; 13] = [
+        "it", "them", "that", "those", "this", "these", "rest", "other", "others", "ее", "его",
+        "их", "это",
     ];
     let rest = (from..at).any(|n| {
         said.is(n, &REST) || said.keys[n].starts_with("друг") || said.keys[n].starts_with("остальн")
     });
     // "Leave the bowl where it is and bring the cup" leaves out nothing of what is brought.
     let ordered = Said::new(whole.clone());
-    let may_be = ordered.keys.iter().any(|key| is_of_several(key))
+    let all = |n: usize| {
+        matches!(ordered.meaning(n), Some((_, Meaning::All))) || ordered.is(n, &["everything"])
+    };
+    let may_be = (0..ordered.keys.len()).any(all)
         || (from..at)
-            .filter(|n| !said.is(*n, &["the"]))
+            .filter(|n| !idle(*n))
             .any(|n| ordered.keys.iter().any(|key| is_akin(&said.keys[n], key)));
     match from == at || rest || !may_be {
         true => Some(whole),
@@ -478,24 +466,6 @@ fn left_alone(said: &Said) -> Option<String> {
             Some(format!("{whole} {except} {}", said.of(&(from..at))))
         }
     }
-}
-
-/// Whether a word says that something is done with all of its kind.
-fn is_of_several(key: &str) -> bool {
-    const ALL: [&str; 11] = [
-        "all",
-        "both",
-        "every",
-        "each",
-        "everything",
-        "все",
-        "всех",
-        "обе",
-        "оба",
-        "каждую",
-        "каждый",
-    ];
-    ALL.contains(&key)
 }
 
 /// Whether two words are forms of one: «книги», «Книгу-4».

@@ -136,9 +136,7 @@ impl Knowledge<'_> {
                 };
                 return (text, near.clone());
             }
-            Doubt::NoneSuch { noun } if self.has_no_order(noun) => self
-                .pick("сравнить их карта не даёт", "the map does not let them be compared")
-                .to_owned(),
+            Doubt::NoneSuch { noun } if self.has_no_order(noun) => self.without_order().to_owned(),
             Doubt::NoneSuch { noun } if !noun.except.is_empty() => self
                 .pick(
                     "других, кроме исключённых, на карте нет",

@@ -33,9 +33,7 @@ impl Knowledge<'_> {
         }
         let unordered = Noun { best: None, rank: None, ..noun.clone() };
         if found.is_empty() && self.find(&unordered, false).is_ok_and(|all| !all.is_empty()) {
-            let text =
-                self.pick("сравнить их карта не даёт", "the map does not let them be compared");
-            return Draft::new(Said::Unknown, text.to_owned());
+            return Draft::new(Said::Unknown, self.without_order().to_owned());
         }
         let Some(&first) = found.first() else {
             let text = self.nothing_found(noun, &self.restrictions(noun));
@@ -150,9 +148,12 @@ impl Knowledge<'_> {
         let others = self.find(&Noun { beyond: None, ..noun.clone() }, false)?;
         let mut others = others.into_iter().filter(|t| *t != other).peekable();
         let none = others.peek().is_some() && others.all(|t| self.measure(*extreme, t).is_none());
-        let text =
-            || self.pick("сравнить их карта не даёт", "the map does not let them be compared");
-        Ok(none.then(|| Draft::new(Said::Unknown, text().to_owned())))
+        Ok(none.then(|| Draft::new(Said::Unknown, self.without_order().to_owned())))
+    }
+
+    /// Of things that have no common measure.
+    pub(in crate::question) fn without_order(&self) -> &'static str {
+        self.pick("сравнить их карта не даёт", "the map does not let them be compared")
     }
 
     pub(super) fn measure_words(&self, extreme: Extreme, thing: Thing) -> String {
