@@ -8,8 +8,7 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use orthoframe::engine::json;
@@ -22,12 +21,19 @@ use crate::dict::to_python;
 /// What all threads share.
 #[derive(Debug)]
 pub(crate) struct Desk {
-    /// None once it was closed.
-    engine: Mutex<Option<Engine>>,
+    held: Mutex<Held>,
     pub(crate) language: Language,
     pub(crate) user: String,
+}
+
+/// What one thread has at a time. Who takes the robot takes the store with it, and who lets it go puts both down at once:
+/// between the two nobody else takes either.
+#[derive(Debug)]
+struct Held {
+    /// None once it was closed.
+    engine: Option<Engine>,
     /// The robot is one: while it is under way, nothing else sends it.
-    is_under_way: AtomicBool,
+    is_under_way: bool,
 }
 
 /// Why a call fails.
@@ -62,9 +68,12 @@ pub(crate) struct Told {
 
 impl Desk {
     pub(crate) fn new(mut engine: Engine, language: Language, user: String) -> Self {
-        let is_under_way = AtomicBool::new(false);
         engine.put_down();
-        Self { engine: Mutex::new(Some(engine)), language, user, is_under_way }
+        Self {
+            held: Mutex::new(Held { engine: Some(engine), is_under_way: false }),
+            language,
+            user,
+        }
     }
 
     /// Has the engine to oneself, and the store.
@@ -72,12 +81,15 @@ impl Desk {
         &self,
         work: impl FnOnce(&mut Engine) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        self.alone(|engine| {
-            engine.take_up()?;
-            let done = work(engine);
-            self.rest(engine);
-            done
-        })
+        let mut held = self.held()?;
+        let rests = !held.is_under_way;
+        let engine = held.engine()?;
+        engine.take_up()?;
+        let done = work(engine);
+        if rests {
+            engine.put_down();
+        }
+        done
     }
 
     /// Has the engine to oneself, to ask it.
@@ -92,20 +104,16 @@ impl Desk {
     }
 
     fn alone<T>(&self, work: impl FnOnce(&mut Engine) -> Result<T, Failure>) -> Result<T, Failure> {
-        let mut engine = self.engine.lock().map_err(|_poison| Failure::Broken)?;
-        work(engine.as_mut().ok_or(Failure::Closed)?)
+        work(self.held()?.engine()?)
+    }
+
+    fn held(&self) -> Result<MutexGuard<'_, Held>, Failure> {
+        self.held.lock().map_err(|_poison| Failure::Broken)
     }
 
     /// The robot sets out: what it does will be noted.
     pub(crate) fn sets_out(&self) -> Result<(), Failure> {
         self.alone(|engine| Ok(engine.set_out()?))
-    }
-
-    /// Lets other programs write, where the robot is not under way.
-    fn rest(&self, engine: &mut Engine) {
-        if !self.is_under_way.load(Ordering::Acquire) {
-            engine.put_down();
-        }
     }
 
     /// What is known now.
@@ -118,23 +126,19 @@ impl Desk {
 
     /// Gives the store back, for others to open.
     pub(crate) fn close(&self) {
-        let engine = match self.engine.lock() {
-            Ok(mut engine) => engine.take(),
-            Err(poison) => poison.into_inner().take(),
-        };
+        let engine = self.held.lock().unwrap_or_else(PoisonError::into_inner).engine.take();
         drop(engine);
     }
 
     /// The robot for oneself, until this is dropped.
     pub(crate) fn take_robot(self: &Arc<Self>) -> Result<Robot, Failure> {
-        match self.is_under_way.swap(true, Ordering::AcqRel) {
-            true => Err(Failure::Busy),
-            false => {
-                let robot = Robot(Arc::clone(self));
-                self.alone(|engine| Ok(engine.take_up()?))?;
-                Ok(robot)
-            }
+        let mut held = self.held()?;
+        if held.is_under_way {
+            return Err(Failure::Busy);
         }
+        held.engine()?.take_up()?;
+        held.is_under_way = true;
+        Ok(Robot(Arc::clone(self)))
     }
 
     /// Does something with the interpreter let go; what goes wrong is an exception.
@@ -169,19 +173,28 @@ impl Desk {
     }
 }
 
+impl Held {
+    fn engine(&mut self) -> Result<&mut Engine, Failure> {
+        self.engine.as_mut().ok_or(Failure::Closed)
+    }
+}
+
 /// See [`Desk::take_robot`].
 #[derive(Debug)]
 pub(crate) struct Robot(Arc<Desk>);
 
 impl Drop for Robot {
     fn drop(&mut self) {
-        self.0.is_under_way.store(false, Ordering::Release);
         // A broken engine, or one that was closed, has nothing to put down.
-        let _ = self.0.alone(|engine| {
+        let (mut held, is_whole) = match self.0.held.lock() {
+            Ok(held) => (held, true),
+            Err(poison) => (poison.into_inner(), false),
+        };
+        held.is_under_way = false;
+        if let Some(engine) = held.engine.as_mut().filter(|_| is_whole) {
             engine.come_back();
             engine.put_down();
-            Ok(())
-        });
+        }
     }
 }
 

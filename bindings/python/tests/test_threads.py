@@ -94,3 +94,30 @@ def test_the_interpreter_is_let_go(house):
         time.sleep(0.0005)
     thread.join()
     assert counted > 20, counted
+
+
+def test_the_robot_goes_from_hand_to_hand(house):
+    """Who takes the robot as another lets it go keeps the store for the whole way."""
+    faults, over = [], time.monotonic() + 3.0
+
+    def send():
+        while time.monotonic() < over:
+            try:
+                task = house.run("Go to Point A")
+                task.cancel()
+                task.result(30)
+            except orthoframe.InputError as error:
+                if "under way" not in str(error):
+                    faults.append(error)
+
+    def ask():
+        while time.monotonic() < over:
+            house.ask("Where is the medicine?")
+
+    threads = [threading.Thread(target=work) for work in [send] * 8 + [ask] * 4]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(90)
+        assert not thread.is_alive(), "a thread hangs"
+    assert not faults, faults
