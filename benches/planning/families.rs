@@ -440,6 +440,7 @@ pub(crate) fn all() -> Vec<Measured> {
         (elevators(12, 12, 1), f64::INFINITY),
         (transport(10, 2, 6, 1), f64::INFINITY),
         (parking(5, 8, 1), f64::INFINITY),
+        (parking(6, 10, 1), f64::INFINITY),
         (storage(3, 3, 1, 4, 1), f64::INFINITY),
         (storage(4, 3, 1, 6, 1), f64::INFINITY),
         (sokoban(8, 3, 1), f64::INFINITY),

@@ -32,6 +32,12 @@ pub(super) fn members(set: &[u64]) -> impl Iterator<Item = usize> {
     set.iter().enumerate().flat_map(|(at, &word)| of_word(word).map(move |bit| at * 64 + bit))
 }
 
+/// What two sets both have, ascending.
+pub(super) fn common(set: &[u64], other: &[u64]) -> impl Iterator<Item = usize> {
+    let words = set.iter().zip(other).enumerate();
+    words.flat_map(|(at, (&word, &other))| of_word(word & other).map(move |bit| at * 64 + bit))
+}
+
 /// The members of one word's set, ascending.
 pub(super) fn of_word(mut word: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {

@@ -38,7 +38,7 @@ use graph::PlanningGraph;
 use induction::{Induction, Proof};
 use replan::Inherited;
 use sat::{Encoding, Verdict};
-use states::{Progress, States};
+use states::{BothEnds, Onward, Progress, StateSearch};
 
 /// Finds a plan with the fewest parallel steps, or proves that there is none.
 ///
@@ -125,9 +125,9 @@ const EFFORT_A_LEVEL: u64 = 1 << 14;
 const INDUCTION_SHARE: u64 = 4;
 const EFFORT_A_CHOICE: u64 = 4;
 
-/// So much is spent before states are looked at, and then such a part of what search and solver spent.
+/// So much is spent before states are looked at.
+const EFFORT_BEFORE_BOTH_ENDS: u64 = 1 << 20;
 const EFFORT_BEFORE_STATES: u64 = 1 << 22;
-const STATES_SHARE: u64 = 4;
 
 /// Choices that the search may take for a level before the solver has its turn, after it decided the last level
 /// with so many: much more while they are few, later no more than twice as many.
@@ -343,8 +343,9 @@ struct Extractor<'a> {
     refuted: usize,
     /// The third way, once the graph has leveled off, and the plan that it came to.
     induction: Option<Induction<'a>>,
-    /// The fourth way, once it has its turn, if there is one.
-    states: Option<Option<States<'a>>>,
+    /// The fourth way, once it has its turn, and how many of its kinds were thought of.
+    states: Vec<Box<dyn StateSearch + 'a>>,
+    state_searches: usize,
     /// A plan, of whatever length.
     known: Option<Plan>,
     /// Whether forward search was asked for any plan.
@@ -374,7 +375,8 @@ impl<'a> Extractor<'a> {
             spent: 0,
             refuted: 0,
             induction: None,
-            states: None,
+            states: Vec::new(),
+            state_searches: 0,
             known: None,
             has_sought: false,
             at_least: 0,
@@ -384,7 +386,7 @@ impl<'a> Extractor<'a> {
 
     fn bytes(&self) -> usize {
         let induction = self.induction.as_ref().map_or(0, Induction::bytes);
-        let states = self.states.as_ref().and_then(Option::as_ref).map_or(0, States::bytes);
+        let states: usize = self.states.iter().map(|search| search.bytes()).sum();
         self.search.bytes() + self.encoding.bytes() + induction + states
     }
 
@@ -392,7 +394,7 @@ impl<'a> Extractor<'a> {
     fn effort(&self, graph: &PlanningGraph) -> u64 {
         let induction = self.induction.as_ref().map_or(0, Induction::effort);
         let choices = self.search.choices() * EFFORT_A_CHOICE;
-        let states = self.states.as_ref().and_then(Option::as_ref).map_or(0, States::effort);
+        let states: u64 = self.states.iter().map(|search| search.effort()).sum();
         graph.effort() + choices + self.encoding.effort() + induction + states
     }
 
@@ -549,36 +551,48 @@ impl<'a> Extractor<'a> {
             None => (graph.top() <= refuted).then_some(Extraction::None),
         })
     }
+
     /// Where there are few states, up to exchanges of what is alike, looking at them all is the shortest proof. Once the
-    /// graph has leveled off and much was spent in vain, this gets a share of the effort.
+    /// graph has leveled off and something was spent in vain, this gets a share of the effort.
     fn look_at_states(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
         if graph.leveled_off_at().is_none() {
             return Ok(None);
         }
         let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
-        if effort < EFFORT_BEFORE_STATES {
-            return Ok(None);
-        }
-        let (task, encoding) = (self.task, &self.encoding);
-        let states = self.states.get_or_insert_with(|| {
-            let groups = match encoding.is_serial() {
-                true => vec![0; task.operators.len()],
-                false => fewest::groups(task, graph),
-            };
-            States::of(task, &groups)
-        });
-        let Some(states) = states else { return Ok(None) };
-        if !states.is_given_up() && states.at_least() <= graph.top() {
-            match states.go_on(effort / STATES_SHARE, self.limits)? {
+        self.begin_to_look(graph, effort);
+        for search in &mut self.states {
+            if search.is_given_up() || search.at_least() > graph.top() {
+                continue;
+            }
+            match search.go_on(effort / search.share(), self.limits)? {
                 Progress::Plan(plan) => self.known = Some(plan),
-                Progress::Never => return Ok(Some(Extraction::Never(task.goal.clone()))),
+                Progress::Never => return Ok(Some(Extraction::Never(self.task.goal.clone()))),
                 Progress::Open => {}
             }
         }
-        let at_least = states.at_least();
+        let at_least = self.states.iter().map(|search| search.at_least()).max().unwrap_or_default();
         Ok(match self.known_at(graph) {
             Some(plan) => Some(Extraction::Plan(plan)),
             None => (graph.top() < at_least).then_some(Extraction::None),
         })
+    }
+
+    /// Begins the next search through states that the task allows, once so much was spent.
+    fn begin_to_look(&mut self, graph: &PlanningGraph, effort: u64) {
+        let task = self.task;
+        match self.state_searches {
+            0 if effort >= EFFORT_BEFORE_BOTH_ENDS => {
+                self.states.extend(BothEnds::of(task, graph).map(|ends| Box::new(ends) as _));
+            }
+            1 if effort >= EFFORT_BEFORE_STATES => {
+                let groups = match self.encoding.is_serial() {
+                    true => vec![0; task.operators.len()],
+                    false => fewest::groups(task, graph),
+                };
+                self.states.extend(Onward::of(task, &groups).map(|onward| Box::new(onward) as _));
+            }
+            _ => return,
+        }
+        self.state_searches += 1;
     }
 }

@@ -1,16 +1,10 @@
-//! All states in the order of the steps that lead to them, up to exchanges of what is alike: where these are few, no
-//! proof is shorter.
+//! All states, up to exchanges of what is alike: where these are few, no proof is shorter.
 //!
-//! A step is a parallel one ([`steps`]). States come to their turn by the steps so far and those still to come at least
-//! ([`ahead`]; P. Hart, N. Nilsson, B. Raphael, 1968), of equal ones the farthest first. A state that is come to by fewer
-//! steps later has its turn once more, so what stands first bounds all plans.
+//! A step is a parallel one ([`steps`]). Where operators can be undone and few states have the goal, the search goes from
+//! both ends ([`both_ends`]), else from what holds at first ([`onward`]).
 
-use std::collections::BTreeMap;
-
-use self::ahead::Ahead;
 use self::alike::Alike;
-use self::packed::Packed;
-use self::steps::Steps;
+use self::steps::{After, Steps};
 use crate::plan::Plan;
 use crate::portfolio::relaxed::initial;
 use crate::strips::Task;
@@ -18,8 +12,14 @@ use crate::{Limit, Limits};
 
 mod ahead;
 mod alike;
+mod both_ends;
+mod onward;
 mod packed;
 mod steps;
+mod undo;
+
+pub(crate) use self::both_ends::BothEnds;
+pub(crate) use self::onward::Onward;
 
 /// What so much effort came to.
 pub(crate) enum Progress {
@@ -30,74 +30,41 @@ pub(crate) enum Progress {
     Open,
 }
 
-pub(crate) struct States<'a> {
-    task: &'a Task,
-    steps: Steps<'a>,
-    ahead: Ahead,
-    alike: Alike,
-    known: Packed,
-    /// For each state the steps that lead to it, and the one before.
-    nodes: Vec<(u32, u32)>,
-    /// By steps in all, then by those made: numbers of states, some of which were come to sooner since.
-    open: BTreeMap<u32, Vec<Vec<u32>>>,
-    at_least: usize,
-    /// Whether some state has more ways to go on than can be looked at, or there are too many states.
-    is_given_up: bool,
-}
-
 /// States are kept in this part of the memory.
 const OF_MEMORY: usize = 4;
 
 const NONE: u32 = u32::MAX;
 
-impl<'a> States<'a> {
-    /// `groups` are numbers of operators, the same for those no two of which go into one step. None where the task is
-    /// too large.
-    pub(crate) fn of(task: &'a Task, groups: &[usize]) -> Option<Self> {
-        let steps = Steps::of(task)?;
-        let mut states = Self {
-            task,
-            steps,
-            ahead: Ahead::of(task, groups),
-            alike: Alike::of(task),
-            known: Packed::new(initial(task).len()),
-            nodes: Vec::new(),
-            open: BTreeMap::new(),
-            at_least: 0,
-            is_given_up: false,
-        };
-        states.meet(&initial(task), 0, NONE);
-        Some(states)
-    }
-
+/// A search through all states, of a kind.
+pub(crate) trait StateSearch {
     /// Proven: no plan has fewer steps.
-    pub(crate) fn at_least(&self) -> usize {
-        self.at_least
-    }
-
-    pub(crate) fn bytes(&self) -> usize {
-        let open: usize = self.open.values().flatten().map(|numbers| numbers.capacity() * 4).sum();
-        self.known.bytes() + self.nodes.capacity() * 8 + open
-    }
+    fn at_least(&self) -> usize;
 
     /// What was spent, in what takes as long as for the solver to set a variable.
-    pub(crate) fn effort(&self) -> u64 {
-        self.steps.effort() + self.alike.effort + self.ahead.effort
-    }
+    fn effort(&self) -> u64;
 
-    /// Whether nothing more is to be had of it.
-    pub(crate) fn is_given_up(&self) -> bool {
-        self.is_given_up
-    }
+    /// It gets such a part of what other ways spend.
+    fn share(&self) -> u64;
+
+    fn bytes(&self) -> usize;
+
+    /// Whether nothing more is to be had of it: some state has more ways to go on than can be looked at, or there are too
+    /// many states.
+    fn is_given_up(&self) -> bool;
+
+    fn give_up(&mut self);
+
+    /// Looks at one state, and tells what that ends with, if with anything.
+    fn look(&mut self) -> Option<Progress>;
 
     /// Goes on until so much effort is spent in all.
     ///
     /// # Errors
     /// Time is up.
-    pub(crate) fn go_on(&mut self, effort: u64, limits: &Limits) -> Result<Progress, Limit> {
+    fn go_on(&mut self, effort: u64, limits: &Limits) -> Result<Progress, Limit> {
         const BETWEEN_CHECKS: u32 = 64;
         let mut looked_at = 0_u32;
-        while !self.is_given_up && self.effort() < effort {
+        while !self.is_given_up() && self.effort() < effort {
             looked_at += 1;
             if looked_at.is_multiple_of(BETWEEN_CHECKS) {
                 limits.check(0)?;
@@ -106,274 +73,35 @@ impl<'a> States<'a> {
                     break;
                 }
             }
-            let Some((number, made)) = self.next() else { return Ok(Progress::Never) };
-            if self.nodes[number as usize].0 != made {
-                continue;
-            }
-            let state = self.known.state(number).to_vec();
-            if self.task.goal.iter().all(|fact| crate::bits::has(&state, fact.index())) {
-                self.at_least = made as usize;
-                return Ok(Progress::Plan(self.plan(number)));
-            }
-            let Some(after) = self.steps.after(&state) else {
-                self.give_up();
-                break;
-            };
-            for (mut after, _) in after {
-                self.alike.represent(&mut after);
-                self.meet(&after, made + 1, number);
+            if let Some(progress) = self.look() {
+                return Ok(progress);
             }
         }
         Ok(Progress::Open)
     }
-
-    fn give_up(&mut self) {
-        self.is_given_up = true;
-        self.known = Packed::new(1);
-        (self.nodes, self.open) = Default::default();
-    }
-
-    /// The state whose turn it is, and the steps that led to it.
-    fn next(&mut self) -> Option<(u32, u32)> {
-        while let Some(mut first) = self.open.first_entry() {
-            let all = *first.key() as usize;
-            let by_made = first.get_mut();
-            if let Some(numbers) = by_made.last_mut() {
-                self.at_least = self.at_least.max(all);
-                if let Some(number) = numbers.pop() {
-                    return Some((number, by_made.len() as u32 - 1));
-                }
-                by_made.pop();
-            } else {
-                first.remove();
-            }
-        }
-        None
-    }
-
-    fn meet(&mut self, state: &[u64], made: u32, from: u32) {
-        let (number, is_new) = self.known.insert(state);
-        if is_new {
-            self.nodes.push((made, from));
-        } else if self.nodes[number as usize].0 <= made {
-            return;
-        }
-        self.nodes[number as usize] = (made, from);
-        let Some(ahead) = self.ahead.steps(state) else { return };
-        let by_made = self.open.entry(made + ahead).or_default();
-        if by_made.len() <= made as usize {
-            by_made.resize(made as usize + 1, Vec::new());
-        }
-        by_made[made as usize].push(number);
-    }
-
-    /// The states on the way stand for others; the way is gone once more from the beginning, from each state to one that
-    /// the next stands for.
-    fn plan(&mut self, to: u32) -> Plan {
-        let mut way = Vec::new();
-        let mut at = to;
-        while self.nodes[at as usize].1 != NONE {
-            way.push(at);
-            at = self.nodes[at as usize].1;
-        }
-        let mut state = initial(self.task).to_vec();
-        let mut plan = Plan { steps: Vec::new() };
-        for &number in way.iter().rev() {
-            let all = self.steps.after(&state).expect("as many ways as from what stands for it");
-            let mut leads_there = |(after, _): &steps::After| {
-                let mut after = after.clone();
-                self.alike.represent(&mut after);
-                after == self.known.state(number)
-            };
-            let found = all.into_iter().find(|after| leads_there(after));
-            let (after, step) = found.expect("alike states go on alike");
-            plan.steps.push(step);
-            state = after;
-        }
-        plan
-    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bits;
-    use crate::proof::fewest::groups;
-    use crate::proof::graph::PlanningGraph;
-    use crate::samples::{Named, Random, random_errand, random_task, random_task_with_objects};
-    use crate::strips::FactId;
-    use crate::tests::fewest_steps;
-    use crate::validate;
-
-    fn states<'a>(task: &'a Task) -> States<'a> {
-        let mut graph = PlanningGraph::new(task);
-        while graph.leveled_off_at().is_none() {
-            graph.expand(None, &Limits::default()).unwrap();
-        }
-        States::of(task, &groups(task, &graph)).unwrap()
-    }
-
-    /// Crates, each in a container of its own, are brought to places of a store by one or two hands; an order that has
-    /// all its crates is told so for good.
-    fn crates(seed: u64) -> Task {
-        let mut random = Random(seed);
-        let mut named = Named::default();
-        let (crates, places, hands) =
-            (2 + random.below(2), 2 + random.below(2), 1 + random.below(2));
-        let (mut init, mut goal) = (Vec::new(), Vec::new());
-        for hand in 0..hands {
-            init.push(named.fact(&format!("free h{hand}")));
-        }
-        for place in 0..places {
-            init.push(named.fact(&format!("clear p{place}")));
-        }
-        for item in 0..crates {
-            let stored = named.fact(&format!("stored c{item}"));
-            let boxed = named.fact(&format!("on c{item} k{item}"));
-            init.push(boxed);
-            if random.below(5) > 0 {
-                goal.push(stored);
-            }
-            for hand in 0..hands {
-                let free = named.fact(&format!("free h{hand}"));
-                let held = named.fact(&format!("held h{hand} c{item}"));
-                named.operator(&[boxed, free], &[held], &[boxed, free]);
-                for place in 0..places {
-                    let clear = named.fact(&format!("clear p{place}"));
-                    let lies = named.fact(&format!("on c{item} p{place}"));
-                    named.operator(&[held, clear], &[lies, free, stored], &[held, clear]);
-                    named.operator(&[lies, free], &[held, clear], &[lies, free, stored]);
-                }
-            }
-            let (told, untold) =
-                (named.fact(&format!("told c{item}")), named.fact(&format!("untold c{item}")));
-            init.push(untold);
-            named.operator(&[stored, untold], &[told], &[untold]);
-            if random.below(3) == 0 {
-                goal.push(told);
-            }
-        }
-        named.task_in_words(&init, &goal)
-    }
-
-    /// Blocks that one hand takes up and puts down on others or on the table; some of them are wanted somewhere.
-    fn towers(seed: u64) -> Task {
-        let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        let mut named = Named::default();
-        let blocks = 3 + random.below(2);
-        let free = named.fact("free");
-        for block in 0..blocks {
-            let [held, clear, table] =
-                ["held", "clear", "table"].map(|word| named.fact(&format!("{word} b{block}")));
-            named.operator(&[clear, table, free], &[held], &[clear, table, free]);
-            named.operator(&[held], &[clear, table, free], &[held]);
-            for other in (0..blocks).filter(|&other| other != block) {
-                let [below, on] = [format!("clear b{other}"), format!("on b{block} b{other}")]
-                    .map(|name| named.fact(&name));
-                named.operator(&[clear, on, free], &[held, below], &[clear, on, free]);
-                named.operator(&[held, below], &[clear, on, free], &[held, below]);
-            }
-        }
-        let mut stacks = |facts: &mut Vec<FactId>, is_goal: bool| {
-            let mut tops: Vec<usize> = Vec::new();
-            for turn in 0..blocks {
-                let block = if is_goal { blocks - 1 - turn } else { turn };
-                let below = random.below(tops.len() + 1);
-                let place = match tops.get(below).copied() {
-                    Some(top) => {
-                        tops[below] = block;
-                        format!("on b{block} b{top}")
-                    }
-                    None => {
-                        tops.push(block);
-                        format!("table b{block}")
-                    }
-                };
-                if !is_goal || random.below(3) > 0 {
-                    facts.push(named.fact(&place));
-                }
-            }
-            if !is_goal {
-                let clear = tops.iter().map(|top| named.fact(&format!("clear b{top}")));
-                facts.extend(clear.collect::<Vec<_>>());
-            }
+/// The states on the way, from the first, stand for others; the way is gone once more from the beginning, from each state
+/// to one that the next stands for. None where one has more ways to go on than can be looked at.
+fn plan_along<State: AsRef<[u64]>>(
+    way: &[State],
+    task: &Task,
+    steps: &mut Steps<'_>,
+    alike: &mut Alike,
+) -> Option<Plan> {
+    let mut state = initial(task).to_vec();
+    let mut plan = Plan { steps: Vec::new() };
+    for next in &way[1..] {
+        let all = steps.after(&state)?;
+        let mut leads_there = |(after, _): &After| {
+            let mut after = after.clone();
+            alike.represent(&mut after);
+            after == next.as_ref()
         };
-        let (mut init, mut goal) = (vec![free], Vec::new());
-        stacks(&mut init, false);
-        stacks(&mut goal, true);
-        named.task(&init, &goal)
+        let found = all.into_iter().find(|after| leads_there(after));
+        let (after, step) = found.expect("alike states go on alike");
+        plan.steps.push(step);
+        state = after;
     }
-
-    /// Whatever the effort, what is claimed is true.
-    #[test]
-    fn looking_at_all_states_agrees_with_breadth_first_search() {
-        let (mut plans, mut none, mut fewer) = (0, 0, 0);
-        let tasks = (1..=1200)
-            .flat_map(|seed| [random_task(seed), random_task_with_objects(seed)])
-            .chain((1..=300).map(random_errand))
-            .chain((1..=60).map(crates))
-            .chain((1..=200).map(towers));
-        for (number, task) in tasks.enumerate() {
-            let fewest = fewest_steps(&task);
-            let mut states = states(&task);
-            loop {
-                let allowed = states.effort() + 1 + number as u64 % 50;
-                let progress = states.go_on(allowed, &Limits::default()).unwrap();
-                assert!(fewest.is_none_or(|fewest| states.at_least() <= fewest), "{number}");
-                match progress {
-                    Progress::Plan(plan) => {
-                        assert_eq!(validate(&task, &plan), Ok(()), "{number}");
-                        assert_eq!(Some(plan.steps.len()), fewest, "{number}");
-                        plans += 1;
-                        break;
-                    }
-                    Progress::Never => {
-                        assert_eq!(fewest, None, "{number}");
-                        none += 1;
-                        break;
-                    }
-                    Progress::Open => assert!(!states.is_given_up(), "{number}"),
-                }
-            }
-            fewer += usize::from(states.alike.count() > 0);
-        }
-        assert!(plans > 500 && none > 300 && fewer > 200, "{plans} {none} {fewer}");
-    }
-
-    #[test]
-    fn crates_in_containers_of_their_own_are_alike() {
-        let wants_all = |task: &Task| {
-            let goal = task.goal.iter().map(|fact| task.fact(*fact).to_string());
-            goal.collect::<Vec<_>>() == ["stored_(c0)", "stored_(c1)", "stored_(c2)"]
-                && task.facts.iter().all(|fact| fact.to_string() != "clear_(p2)")
-        };
-        // More of them than of places and hands, which could be exchanged instead.
-        let task = (1..).map(crates).find(wants_all).unwrap();
-        let mut states = states(&task);
-        let mut named = |facts: &[&str]| {
-            let mut state = vec![0; bits::words(task.facts.len())];
-            for fact in facts {
-                let words: Vec<&str> = fact.split(' ').collect();
-                let is_it = |id: &FactId| {
-                    let fact = task.fact(*id);
-                    let args: Vec<&str> = fact.args.iter().map(AsRef::as_ref).collect();
-                    *fact.predicate == *words[0] && args == words[1..]
-                };
-                bits::put(&mut state, task.fact_ids().find(is_it).unwrap().index());
-            }
-            states.alike.represent(&mut state);
-            state
-        };
-        let one = named(&["on c0 k0", "on c1 p0", "clear p1"]);
-        assert_eq!(one, named(&["on c1 k1", "on c0 p0", "clear p1"]));
-        assert_ne!(one, named(&["on c1 k1", "on c0 k0", "clear p0"]));
-    }
-
-    #[test]
-    fn a_state_with_too_many_ways_on_ends_the_search() {
-        let task = crate::samples::wishes(10, 10);
-        let mut states = states(&task);
-        assert!(matches!(states.go_on(u64::MAX, &Limits::default()), Ok(Progress::Open)));
-        assert!(states.is_given_up() && states.at_least() <= 1);
-    }
+    Some(plan)
 }

@@ -24,6 +24,11 @@ impl Packed {
         &self.states[number as usize * self.words..][..self.words]
     }
 
+    pub(super) fn find(&self, state: &[u64]) -> Option<u32> {
+        let known = self.slots[self.slot(state)];
+        (known != FREE).then_some(known)
+    }
+
     /// The number of a state, and whether it is new.
     pub(super) fn insert(&mut self, state: &[u64]) -> (u32, bool) {
         let slot = self.slot(state);

@@ -6,9 +6,11 @@
 //! else wants, and that interferes with nothing else that could be done now. Put into the first step of a plan it leaves
 //! the rest of the plan as it is, but that the operator itself is done with.
 
+use std::borrow::Cow;
+
 use crate::allowed::Allowed;
 use crate::bits;
-use crate::strips::{FactId, OperatorId, Task};
+use crate::strips::{FactId, Operator, OperatorId, Task};
 
 /// Of more operators than this it is not kept which interfere.
 const MOST_OPERATORS: usize = 1 << 12;
@@ -17,15 +19,21 @@ const MOST_OPERATORS: usize = 1 << 12;
 const MOST_WAYS: usize = 1 << 9;
 
 pub(super) struct Steps<'a> {
-    task: &'a Task,
+    task: Cow<'a, Task>,
     allowed: Allowed,
-    /// For each operator those that it interferes with.
-    rivals: Vec<Box<[u64]>>,
+    rivals: Rivals,
     /// Operators whose effects last and that use up only what they alone want.
     last: Vec<bool>,
+    /// Whether all that an operator brings must be new.
+    is_all_new: bool,
+    /// For each fact those that never hold beside it; none where that goes without saying.
+    exclusive: Vec<Box<[u64]>>,
     /// What states after steps took so far.
     carried_out: u64,
 }
+
+/// For each operator those that it cannot go into one step with.
+pub(super) type Rivals = Vec<Box<[u64]>>;
 
 /// A state after a step, and the operators carried out in it.
 pub(super) type After = (Vec<u64>, Vec<OperatorId>);
@@ -33,25 +41,14 @@ pub(super) type After = (Vec<u64>, Vec<OperatorId>);
 impl<'a> Steps<'a> {
     /// None where there are too many operators.
     pub(super) fn of(task: &'a Task) -> Option<Self> {
-        let count = task.operators.len();
-        if count > MOST_OPERATORS {
-            return None;
-        }
+        let ids: Vec<OperatorId> = task.operator_ids().collect();
+        let rivals = rivals(&ids, |a, b| task.operator(a).interferes(task.operator(b)))?;
         let mut needed_by = vec![Vec::new(); task.facts.len()];
         let mut is_taken = vec![false; task.facts.len()];
         for id in task.operator_ids() {
             let operator = task.operator(id);
             operator.preconditions.iter().for_each(|fact| needed_by[fact.index()].push(id));
             operator.takes().for_each(|fact| is_taken[fact.index()] = true);
-        }
-        let mut rivals = vec![vec![0; bits::words(count)].into_boxed_slice(); count];
-        for (a, one) in task.operators.iter().enumerate() {
-            for (b, other) in task.operators[..a].iter().enumerate() {
-                if one.interferes(other) {
-                    bits::put(&mut rivals[a], b);
-                    bits::put(&mut rivals[b], a);
-                }
-            }
         }
         let lasts = |id: OperatorId| {
             let operator = task.operator(id);
@@ -63,7 +60,19 @@ impl<'a> Steps<'a> {
                 && operator.del_effects.iter().all(is_own)
         };
         let last = task.operator_ids().map(lasts).collect();
-        Some(Self { task, allowed: Allowed::new(task), rivals, last, carried_out: 0 })
+        Some(Self { last, is_all_new: false, ..Self::of_all(Cow::Borrowed(task), rivals) })
+    }
+
+    /// Steps in which nothing is done but what is chosen, and all that is added is new.
+    pub(super) fn of_all(task: Cow<'a, Task>, rivals: Rivals) -> Self {
+        let (allowed, last) = (Allowed::new(&task), vec![false; task.operators.len()]);
+        let exclusive = Vec::new();
+        Self { task, allowed, rivals, last, is_all_new: true, exclusive, carried_out: 0 }
+    }
+
+    /// Leads to no state in which facts exclude each other.
+    pub(super) fn keeping_apart(self, exclusive: Vec<Box<[u64]>>) -> Self {
+        Self { exclusive, ..self }
     }
 
     /// What was looked at so far.
@@ -99,7 +108,10 @@ impl<'a> Steps<'a> {
     ) -> bool {
         for (at, &id) in open.iter().enumerate() {
             chosen.push(id);
-            found.push(self.carried_out(state, chosen));
+            let after = self.carried_out(state, chosen);
+            if chosen.iter().all(|&id| self.excluded_by(id, &after.0).next().is_none()) {
+                found.push(after);
+            }
             let is_free = |other: &OperatorId| !bits::has(&self.rivals[id.index()], other.index());
             let beside: Vec<OperatorId> = open[at + 1..].iter().copied().filter(is_free).collect();
             let fits = found.len() <= MOST_WAYS && self.add_sets(state, &beside, chosen, found);
@@ -127,8 +139,57 @@ impl<'a> Steps<'a> {
     fn applicable(&mut self, state: &[u64]) -> Vec<OperatorId> {
         let mut applicable = self.allowed.by(state);
         applicable.retain(|&id| {
-            self.task.operator(id).add_effects.iter().any(|fact| !bits::has(state, fact.index()))
+            let is_new = |fact: FactId| !bits::has(state, fact.index());
+            let mut brought = brought_by(self.task.operator(id));
+            if self.is_all_new { brought.all(is_new) } else { brought.any(is_new) }
         });
-        applicable
+        if self.exclusive.is_empty() {
+            return applicable;
+        }
+        // What an operator adds may exclude what only others of its step delete.
+        let is_deleted = |fact: usize, id: OperatorId| {
+            let fact = FactId(fact as u32);
+            let beside = |other: &&OperatorId| {
+                **other == id || !bits::has(&self.rivals[id.index()], other.index())
+            };
+            let deletes =
+                |other: &OperatorId| self.task.operator(*other).del_effects.contains(&fact);
+            applicable.iter().filter(beside).any(deletes)
+        };
+        let fits = |id: &OperatorId| self.excluded_by(*id, state).all(|fact| is_deleted(fact, *id));
+        applicable.iter().copied().filter(fits).collect()
     }
+
+    /// What holds and what an operator adds exclude each other.
+    fn excluded_by(&self, id: OperatorId, state: &[u64]) -> impl Iterator<Item = usize> {
+        let adds =
+            if self.exclusive.is_empty() { &[] } else { &self.task.operator(id).add_effects[..] };
+        adds.iter().flat_map(move |fact| bits::common(&self.exclusive[fact.index()], state))
+    }
+}
+
+/// What an operator adds that need not hold before.
+pub(super) fn brought_by(operator: &Operator) -> impl Iterator<Item = FactId> {
+    operator.add_effects.iter().copied().filter(|fact| !operator.preconditions.contains(fact))
+}
+
+/// For each of these operators those that it cannot go into one step with; none where there are too many.
+pub(super) fn rivals(
+    operators: &[OperatorId],
+    are_rivals: impl Fn(OperatorId, OperatorId) -> bool,
+) -> Option<Rivals> {
+    let count = operators.len();
+    if count > MOST_OPERATORS {
+        return None;
+    }
+    let mut rivals = vec![vec![0; bits::words(count)].into_boxed_slice(); count];
+    for (a, &one) in operators.iter().enumerate() {
+        for (b, &other) in operators[..a].iter().enumerate() {
+            if are_rivals(one, other) {
+                bits::put(&mut rivals[a], b);
+                bits::put(&mut rivals[b], a);
+            }
+        }
+    }
+    Some(rivals)
 }
