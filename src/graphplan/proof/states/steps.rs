@@ -41,8 +41,8 @@ pub(super) type After = (Vec<u64>, Vec<OperatorId>);
 impl<'a> Steps<'a> {
     /// None where there are too many operators.
     pub(super) fn of(task: &'a Task) -> Option<Self> {
-        let ids: Vec<OperatorId> = task.operator_ids().collect();
-        let rivals = rivals(&ids, |a, b| task.operator(a).interferes(task.operator(b)))?;
+        let claims: Vec<Claims> = task.operators.iter().map(Claims::of).collect();
+        let rivals = rivals(&claims, task.facts.len())?;
         let mut needed_by = vec![Vec::new(); task.facts.len()];
         let mut is_taken = vec![false; task.facts.len()];
         for id in task.operator_ids() {
@@ -173,23 +173,38 @@ pub(super) fn brought_by(operator: &Operator) -> impl Iterator<Item = FactId> {
     operator.add_effects.iter().copied().filter(|fact| !operator.preconditions.contains(fact))
 }
 
-/// For each of these operators those that it cannot go into one step with; none where there are too many.
-pub(super) fn rivals(
-    operators: &[OperatorId],
-    are_rivals: impl Fn(OperatorId, OperatorId) -> bool,
-) -> Option<Rivals> {
-    let count = operators.len();
+/// What an operator uses, and what it takes: nobody else in its step may use that.
+pub(super) struct Claims {
+    pub(super) uses: Vec<FactId>,
+    pub(super) takes: Vec<FactId>,
+}
+
+impl Claims {
+    /// Of those that may go into one step in any order (A. Blum, M. Furst, 1997).
+    fn of(operator: &Operator) -> Self {
+        let uses = operator.preconditions.iter().chain(&operator.add_effects);
+        Self { uses: uses.copied().collect(), takes: operator.takes().collect() }
+    }
+}
+
+/// None where there are too many operators.
+pub(super) fn rivals(claims: &[Claims], fact_count: usize) -> Option<Rivals> {
+    let count = claims.len();
     if count > MOST_OPERATORS {
         return None;
     }
-    let mut rivals = vec![vec![0; bits::words(count)].into_boxed_slice(); count];
-    for (a, &one) in operators.iter().enumerate() {
-        for (b, &other) in operators[..a].iter().enumerate() {
-            if are_rivals(one, other) {
-                bits::put(&mut rivals[a], b);
-                bits::put(&mut rivals[b], a);
-            }
-        }
+    let row = || vec![0; bits::words(count)].into_boxed_slice();
+    let (mut users, mut takers) = (vec![row(); fact_count], vec![row(); fact_count]);
+    for (number, Claims { uses, takes }) in claims.iter().enumerate() {
+        uses.iter().for_each(|fact| bits::put(&mut users[fact.index()], number));
+        takes.iter().for_each(|fact| bits::put(&mut takers[fact.index()], number));
     }
-    Some(rivals)
+    let rivals = claims.iter().enumerate().map(|(number, Claims { uses, takes })| {
+        let mut rivals = row();
+        takes.iter().for_each(|fact| bits::unite(&mut rivals, &users[fact.index()]));
+        uses.iter().for_each(|fact| bits::unite(&mut rivals, &takers[fact.index()]));
+        bits::take(&mut rivals, number);
+        rivals
+    });
+    Some(rivals.collect())
 }

@@ -6,9 +6,9 @@
 //! 1989). With what the goal excludes that leaves a few states that have it, often one.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
-use super::steps::{Steps, brought_by, rivals};
+use super::steps::{Claims, Steps, brought_by, rivals};
 use crate::bits;
 use crate::portfolio::relaxed::initial;
 use crate::proof::graph::PlanningGraph;
@@ -20,32 +20,13 @@ pub(super) fn there_and_back<'a>(
     task: &'a Task,
     graph: &PlanningGraph,
 ) -> Option<(Steps<'a>, Steps<'a>)> {
-    let possible = task.operator_ids().filter(|&id| is_possible(task.operator(id), graph));
-    let possible: Vec<OperatorId> = possible.collect();
-    let mut implying = vec![None; task.facts.len()];
-    let mut undone = Vec::with_capacity(possible.len());
-    for &id in &possible {
-        let operator = task.operator(id);
-        let mut was_held = |fact: FactId| {
-            operator.preconditions.contains(&fact) || {
-                let implying =
-                    implying[fact.index()].get_or_insert_with(|| facts_implying(fact, task, graph));
-                operator.preconditions.iter().any(|need| implying.contains(need))
-            }
-        };
-        undone.push(self::undone(operator, graph, &mut was_held)?);
-    }
-    // What is brought does not hold before, so nobody else in the step needs or brings it; of what is deleted the same.
-    let spoils = |one: &Operator, other: &Operator| {
-        let uses = |fact| other.preconditions.contains(&fact) || other.add_effects.contains(&fact);
-        brought_by(one).any(uses) || one.del_effects.iter().any(|f| other.del_effects.contains(f))
-    };
-    let apart = |one: OperatorId, other: OperatorId| {
-        let (one, other) = (task.operator(one), task.operator(other));
-        one.interferes(other) || spoils(one, other) || spoils(other, one)
-    };
-    let all: Vec<OperatorId> = task.operator_ids().collect();
-    let there = Steps::of_all(Cow::Borrowed(task), rivals(&all, apart)?);
+    let possible = |operator: &&Operator| is_possible(operator, graph);
+    let mut implications = Implications::new(task, graph);
+    let undone = task.operators.iter().filter(possible).map(|o| undone(o, &mut implications));
+    let undone: Vec<Operator> = undone.collect::<Option<_>>()?;
+    let rivals_there: Vec<Claims> = task.operators.iter().map(claims).collect();
+    let rivals_back: Vec<Claims> = task.operators.iter().filter(possible).map(claims).collect();
+    let there = Steps::of_all(Cow::Borrowed(task), rivals(&rivals_there, task.facts.len())?);
     let back = Task { operators: undone, ..task.clone() };
     let exclusive = task.fact_ids().map(|fact| {
         let mut row = vec![0; bits::words(task.facts.len())].into_boxed_slice();
@@ -54,7 +35,7 @@ pub(super) fn there_and_back<'a>(
             .for_each(|other| bits::put(&mut row, other.index()));
         row
     });
-    let back = Steps::of_all(Cow::Owned(back), rivals(&possible, apart)?);
+    let back = Steps::of_all(Cow::Owned(back), rivals(&rivals_back, task.facts.len())?);
     Some((there, back.keeping_apart(exclusive.collect())))
 }
 
@@ -62,20 +43,23 @@ fn is_possible(operator: &Operator, graph: &PlanningGraph) -> bool {
     graph.is_possible(&operator.preconditions)
 }
 
+/// What is brought does not hold before, so nobody else in the step uses it; nor does anybody else delete what one deletes.
+fn claims(operator: &Operator) -> Claims {
+    let Operator { preconditions, add_effects, del_effects, .. } = operator;
+    Claims {
+        uses: preconditions.iter().chain(add_effects).chain(del_effects).copied().collect(),
+        takes: operator.takes().chain(brought_by(operator)).collect(),
+    }
+}
+
 /// None where it cannot be.
-fn undone(
-    operator: &Operator,
-    graph: &PlanningGraph,
-    was_held: &mut dyn FnMut(FactId) -> bool,
-) -> Option<Operator> {
+fn undone(operator: &Operator, implications: &mut Implications<'_>) -> Option<Operator> {
     let Operator { preconditions, del_effects, .. } = operator;
     let brought: Vec<FactId> = brought_by(operator).collect();
-    let is_new = |fact: &FactId| {
-        preconditions.iter().any(|need| graph.is_exclusive(graph.top(), *need, *fact))
-    };
+    let is_new = |fact: &FactId| implications.excludes_any(preconditions, *fact);
     if brought.is_empty()
         || !brought.iter().all(is_new)
-        || !del_effects.iter().all(|&fact| was_held(fact))
+        || !del_effects.iter().all(|&fact| implications.imply(preconditions, fact))
     {
         return None;
     }
@@ -92,37 +76,76 @@ fn undone(
     })
 }
 
-/// Facts beside which another always holds, itself among them: it does at first, and every operator leaves it so.
-fn facts_implying(fact: FactId, task: &Task, graph: &PlanningGraph) -> BTreeSet<FactId> {
-    let excludes = |one: FactId, other: FactId| graph.is_exclusive(graph.top(), one, other);
-    let holds_first = task.init.contains(&fact);
-    let mut implying: BTreeSet<FactId> = task
-        .fact_ids()
-        .filter(|&other| !excludes(other, fact) && (holds_first || !task.init.contains(&other)))
-        .collect();
-    let is_kept = |operator: &Operator, other: FactId, implying: &BTreeSet<FactId>| {
-        let has = |facts: &[FactId], one: FactId| facts.contains(&one);
-        let holds_before = || operator.preconditions.iter().any(|need| implying.contains(need));
-        if has(&operator.add_effects, fact) {
-            true
-        } else if has(&operator.add_effects, other) {
-            holds_before() && !has(&operator.del_effects, fact)
-        } else {
-            !has(&operator.del_effects, fact)
-                || has(&operator.del_effects, other)
-                || operator.preconditions.iter().any(|&need| excludes(need, other))
+/// Which facts always hold beside others.
+struct Implications<'a> {
+    task: &'a Task,
+    graph: &'a PlanningGraph,
+    added_by: Vec<Vec<OperatorId>>,
+    deleted_by: Vec<Vec<OperatorId>>,
+    /// Of each fact that was asked for, those that imply it.
+    known: HashMap<FactId, BTreeSet<FactId>>,
+}
+
+impl<'a> Implications<'a> {
+    fn new(task: &'a Task, graph: &'a PlanningGraph) -> Self {
+        let mut added_by = vec![Vec::new(); task.facts.len()];
+        let mut deleted_by = added_by.clone();
+        for id in task.operator_ids() {
+            let operator = task.operator(id);
+            operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(id));
+            operator.del_effects.iter().for_each(|fact| deleted_by[fact.index()].push(id));
         }
-    };
-    loop {
-        let all = &implying;
-        let is_broken = |other: &FactId| {
-            *other != fact && !task.operators.iter().all(|operator| is_kept(operator, *other, all))
+        Self { task, graph, added_by, deleted_by, known: HashMap::new() }
+    }
+
+    fn excludes_any(&self, facts: &[FactId], other: FactId) -> bool {
+        facts.iter().any(|&fact| self.graph.is_exclusive(self.graph.top(), fact, other))
+    }
+
+    /// Whether a fact holds wherever all these do.
+    fn imply(&mut self, facts: &[FactId], fact: FactId) -> bool {
+        facts.contains(&fact) || {
+            if !self.known.contains_key(&fact) {
+                self.known.insert(fact, self.implying(fact));
+            }
+            facts.iter().any(|need| self.known[&fact].contains(need))
+        }
+    }
+
+    /// Beside these a fact holds at first, and every operator leaves it so.
+    fn implying(&self, fact: FactId) -> BTreeSet<FactId> {
+        let holds_first = self.task.init.contains(&fact);
+        let may_imply = |other: &FactId| {
+            !self.excludes_any(&[*other], fact) && (holds_first || !self.task.init.contains(other))
         };
-        let broken: Vec<FactId> = all.iter().copied().filter(is_broken).collect();
-        if broken.is_empty() {
-            return implying;
+        let mut implying: BTreeSet<FactId> = self.task.fact_ids().filter(may_imply).collect();
+        loop {
+            let is_broken = |other: &&FactId| !self.is_kept(**other, fact, &implying);
+            let broken: Vec<FactId> = implying.iter().filter(is_broken).copied().collect();
+            if broken.is_empty() {
+                return implying;
+            }
+            broken.iter().for_each(|other| _ = implying.remove(other));
         }
-        broken.iter().for_each(|other| _ = implying.remove(other));
+    }
+
+    /// Whether a fact holds beside another after each operator, if it does beside all these before.
+    fn is_kept(&self, other: FactId, fact: FactId, implying: &BTreeSet<FactId>) -> bool {
+        let held =
+            |operator: &Operator| operator.preconditions.iter().any(|f| implying.contains(f));
+        let is_added_with = |&id: &OperatorId| {
+            let operator = self.task.operator(id);
+            operator.add_effects.contains(&fact)
+                || held(operator) && !operator.del_effects.contains(&fact)
+        };
+        let is_deleted_with = |&id: &OperatorId| {
+            let operator = self.task.operator(id);
+            operator.del_effects.contains(&other)
+                || self.excludes_any(&operator.preconditions, other)
+        };
+        other == fact
+            || self.added_by[other.index()].iter().all(is_added_with)
+                && self.deleted_by[fact.index()].iter().all(is_deleted_with)
     }
 }
 
