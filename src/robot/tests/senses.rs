@@ -7,9 +7,9 @@ use std::ops::ControlFlow;
 use std::thread;
 
 use orthoframe_geometry::{FloorPlan, Method, Target};
-use orthoframe_map::{DoorState, Entity, World};
+use orthoframe_map::{DoorState, Entity, Format, World};
 use orthoframe_robot::*;
-use orthoframe_units::{Deg, MapId, Point, Pose, Stop};
+use orthoframe_units::{Deg, Language, MapId, Point, Pose, Source, Stop};
 
 use super::setting::{Setting, example, fact, floors};
 
@@ -239,4 +239,70 @@ fn who_is_carried_off_finds_itself_again() {
         }
     }
     assert!(found * 2 > places.len(), "{found} of {}", places.len());
+}
+
+/// A bare hall, so long and so wide, with a robot in it at a place, cm.
+fn hall(long: f64, wide: f64, at: [f64; 2]) -> World {
+    let text = format!(
+        r#"
+format = 1
+[robot]
+radius = 25
+height = 120
+start = "Точка-А"
+[type]
+orthoframe = [{{ name = "Часть помещения", name_en = "part of a room" }}]
+side = [{{ name = "Стена", name_en = "wall" }}]
+area = [{{ name = "Зал", name_en = "hall" }}]
+[orthoframe.hall]
+name = "Зал"
+type = "Часть помещения"
+height = 300
+sides = [
+  {{ id = "A", from = [0, 0], to = [{long}, 0], type = "Стена" }},
+  {{ id = "B", from = [{long}, 0], to = [{long}, {wide}], type = "Стена" }},
+  {{ id = "C", from = [{long}, {wide}], to = [0, {wide}], type = "Стена" }},
+  {{ id = "D", from = [0, {wide}], to = [0, 0], type = "Стена" }},
+]
+[area.hall]
+name = "Зал"
+type = "Зал"
+items = [{{ id = "A", orthoframe = "hall" }}]
+places = [{{ name = "Точка-А", at = {at:?}, heading = 20 }}]
+[map.hall]
+name = "Карта зала"
+items = [{{ area = "hall" }}]
+"#
+    );
+    World::parse(&Source::new("hall", &text), Format::Toml).expect("a hall is a sound map")
+}
+
+/// A robot that cannot know where it is says why it cannot.
+#[test]
+fn why_it_is_lost_is_told_truly() {
+    let square = hall(400.0, 400.0, [130.0, 110.0]);
+    let (corridor, its_end) =
+        (hall(60_000.0, 300.0, [30_000.0, 110.0]), hall(6_000.0, 300.0, [130.0, 110.0]));
+    let (large, house) = (hall(4_000.0, 3_000.0, [2_000.0, 1_500.0]), example("rb2"));
+    let far = Senses::of_seed(4);
+    for (map, truth, senses, said) in [
+        (&square, &square, &far, "fits several places"),
+        (&its_end, &its_end, &far, "fits several places"),
+        (&corridor, &corridor, &far, "fits too many places"),
+        (&large, &large, &far, "sees too little"),
+        (&square, &house, &far, "fits nowhere"),
+        (&house, &corridor, &far, "fits nowhere"),
+    ] {
+        let floors = floors(map);
+        let ground = Ground::of(map, &floors, 20.0);
+        let finders = ground.finders();
+        let (storey, place) = starting_pose(map).unwrap();
+        // It is not where it is believed to be.
+        let believed = Pose { heading: place.heading + Deg::of(140.0), ..place };
+        let mut body = robot(truth, senses.clone());
+        let pilot = Pilot::new(&ground, &finders, &mut body, (storey, believed));
+        let Some(Failure::Nowhere { why }) = pilot.err() else { panic!("{said}") };
+        let told = why.say(Language::English);
+        assert!(told.contains(said), "{told}, and not: {said}");
+    }
 }
