@@ -208,10 +208,29 @@ impl Memory {
     pub fn mention(&mut self, things: &[Thing]) {
         self.hear_of_things(things);
         self.last = things.to_vec();
+        if things.len() > 1 {
+            self.listed = things.to_vec();
+        }
         for thing in things {
             self.spoken.retain(|t| t != thing);
             self.spoken.insert(0, *thing);
         }
+    }
+
+    /// What was spoken of by itself since the last list, the earliest first.
+    pub(super) fn in_turn(&self, fits: impl Fn(&Thing) -> bool) -> Vec<Thing> {
+        let told = |thing: &Thing| self.listed.contains(thing);
+        let since = self.exchanges.iter().take_while(|exchange| {
+            !self.listed.iter().all(|thing| exchange.things().any(|other| other == thing))
+                || self.listed.is_empty()
+        });
+        let mut things: Vec<Thing> = Vec::new();
+        for topic in since.filter_map(Exchange::topic) {
+            if fits(&topic) && !told(&topic) && !things.contains(&topic) {
+                things.insert(0, topic);
+            }
+        }
+        things
     }
 
     /// Notes several things, none of which is more spoken of than the others.

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use super::query::Thing;
 use super::several::sentences;
-use super::{Asker, opening};
+use super::{Asker, Memory, opening};
 use crate::command::{self, is_command, is_order};
-use crate::words::{Language, is_first_person, phrase_at, word_keys, word_ranges};
+use crate::words::{Case, Language, is_first_person, phrase_at, word_keys, word_ranges};
 
 /// What parts the halves of a sentence.
 const MARKS: [char; 8] = [',', ';', '.', '!', ':', '–', '—', '?'];
@@ -23,19 +24,46 @@ impl Asker<'_> {
         if !self.begins_as_question(text) || orders_first() {
             let (order, question) = order_and_question(text)?;
             let question = whether(&question).unwrap_or(question);
+            // «Съезди на кухню, посмотри, включена ли плита, и вернись»
+            let (question, later) =
+                match self.question_and_order(question.trim_end_matches(['?', '.', ' '])) {
+                    Some((asked, later)) => (format!("{asked}?"), Some(later.to_owned())),
+                    None => (question, None),
+                };
             if !self.begins_as_question(&question) && !question.ends_with('?') {
                 return None;
             }
-            // "Please go and see …": whither is not said, and need not be.
+            // "Please go and see …": whither is not said; to what is asked of, where that is one thing.
             let polite = |key: &String| ["please", "пожалуйста", "just"].contains(&key.as_str());
             let bare = word_keys(order).iter().filter(|key| !polite(key)).count() < 2;
-            let order = Some(order).filter(|_| !bare).map(str::to_owned);
-            let behind = order.as_ref().and_then(|_| self.orders_and_questions(&question));
+            let order = match bare {
+                true if is_order(order) => self.way_to_what_is_asked(&question),
+                true => None,
+                false => Some(order.to_owned()),
+            };
+            let behind = order.as_ref().filter(|_| !bare);
+            let behind = behind.and_then(|_| self.orders_and_questions(&question));
             let behind = behind.unwrap_or_else(|| vec![question]);
-            return Some(order.into_iter().chain(behind).collect());
+            return Some(order.into_iter().chain(behind).chain(later).collect());
         }
         let (question, order) = self.question_and_order(text)?;
         Some(vec![question.to_owned(), order.to_owned()])
+    }
+
+    /// The order to go to the first of what a question names by itself; none where it names nothing that is one thing.
+    fn way_to_what_is_asked(&self, question: &str) -> Option<String> {
+        let (memory, language) = (Memory::default(), Language::of(question));
+        let knowledge = self.knowledge(language, &memory);
+        let mut goal = None;
+        self.read(question, &memory).ok()?.each_noun(&mut |noun| {
+            if let (None, Ok([only @ Thing::Entity(_)])) =
+                (goal, knowledge.find(noun, true).as_deref())
+            {
+                goal = Some(*only);
+            }
+        });
+        let go = language.pick("подъедь к", "go to");
+        Some(format!("{go} {}", knowledge.form(goal?, Case::Dative)))
     }
 
     /// A question and the order behind it, whatever joins them: a word, a mark, or both.

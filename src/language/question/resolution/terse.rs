@@ -7,7 +7,7 @@ use super::Resolver;
 use crate::command::{self, Sort};
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
-use crate::question::memory::Ordered;
+use crate::question::memory::{Exchange, Ordered};
 use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
 use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
@@ -436,6 +436,11 @@ impl Asker<'_> {
         }
         if last.iter().any(fits) || free && pronouns.is_empty() {
             return last;
+        }
+        // «Где яблоко? Где тостер? Принеси его»: what was asked of last, and not what was left for it.
+        let newest = memory.exchanges.first().and_then(Exchange::topic).filter(agrees);
+        if let Some(newest) = newest.filter(|t| !free && knowledge.is_akin(sort, *t)) {
+            return vec![newest];
         }
         match memory.spoken.iter().find(|t| fits(t)) {
             Some(earlier) => vec![*earlier],
