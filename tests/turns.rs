@@ -1,7 +1,7 @@
 //! Orders that take up what was said, and where the robot goes for them: "the first one", "it", "back here", "go and check".
 
 use orthoframe::Engine;
-use orthoframe::engine::Memory;
+use orthoframe::engine::{Dialogue, Memory};
 use orthoframe_language::command::{Command, Relation};
 use orthoframe_map::{Entity, Replica, World};
 
@@ -44,6 +44,21 @@ fn the_first_and_the_second_are_counted_in_the_order_in_which_they_were_told() {
             assert!(is_done_to(&commands, Entity::Replica(thing.id)), "{lines:?}: {commands:?}");
             told += 1;
         }
+    }
+    let kinds = ["pens", "phones", "keys", "books"];
+    for kind in kinds {
+        let lines = [&*format!("Where are the {kind}?"), &format!("Bring the {kind}")];
+        let Some(all) = ordered(&engine, &lines) else { continue };
+        let mut memory = Memory::default();
+        let listed = engine.ask(lines[0], &mut memory).unwrap().expect("there are several").symbols;
+        assert!(listed.len() > 2 && all.len() == listed.len(), "{kind}: {listed:?}");
+        // "Now the second one" goes on with the list, whichever is nearer.
+        engine.understand_in("Bring the third one", &mut memory).unwrap();
+        let whole = engine.resumed("Now the second one", &memory).unwrap().expect("an order");
+        let commands = engine.understand_in(&whole, &mut memory).unwrap();
+        let second = world.find(&listed[1])[0];
+        assert!(is_done_to(&commands, second), "{kind}: {whole}");
+        told += 1;
     }
     let doors: Vec<_> = world.doors.values().collect();
     for one in &doors {
@@ -122,7 +137,7 @@ fn who_goes_to_check_goes_there() {
         let Some(engine) = engine(map) else { return };
         let world = engine.world().unwrap();
         let check = |thing: Entity, line: String| {
-            let parts = engine.parts_of(&line).unwrap().unwrap_or_default();
+            let parts = engine.parts_of(&line, &Memory::default()).unwrap().unwrap_or_default();
             let [order, _] = &parts[..] else { panic!("{line}: {parts:?}") };
             let commands = engine.understand(order).unwrap_or_else(|e| panic!("{line}: {e}"));
             let [Command::GoTo { to, .. }] = &commands[..] else { panic!("{line}: {commands:?}") };
@@ -139,5 +154,85 @@ fn who_goes_to_check_goes_there() {
             let thing = Entity::Replica(device.id);
             check(thing, format!("Go and check if {} is on", device.name_en));
         }
+    }
+}
+
+/// "Is the door open? If so, …": done where the answer was yes, and otherwise where it was no; without one it is refused.
+#[test]
+fn what_hinges_on_an_answer_is_done_as_it_was() {
+    for map in ["maps/rb2.toml", HOUSE] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        let mut so = [0, 0];
+        let mut check = |question: &str, hinges: &[(&str, bool)], order: &str| {
+            let mut memory = Memory::default();
+            let Ok(answer) = engine.ask(question, &mut memory).unwrap() else { return };
+            let Some(is_so) = answer.is_so() else { return };
+            for (hinge, wanted) in hinges {
+                let line = format!("{hinge}, {order}");
+                let commands = engine.understand_in(&line, &mut memory.clone()).unwrap();
+                let waits = matches!(commands[..], [Command::Wait]);
+                assert_eq!(waits, is_so != *wanted, "{question} {line}: {commands:?}");
+                assert!(engine.understand(&line).is_err(), "{line}");
+                so[usize::from(waits)] += 1;
+            }
+        };
+        let english =
+            [("If so", true), ("If it is", true), ("If not", false), ("Otherwise", false)];
+        let russian =
+            [("Если да", true), ("Если так", true), ("Если нет", false), ("Иначе", false)];
+        let rooms = world.areas.values().next().expect("there are rooms");
+        let (go, go_ru) =
+            (format!("go to {}", rooms.name_en), format!("поезжай: «{}»", rooms.name));
+        for door in world.doors.values() {
+            for state in ["open", "closed"] {
+                check(&format!("Is {} {state}?", door.name_en), &english, &go);
+            }
+            check(&format!("«{}» закрыта?", door.name), &russian, &go_ru);
+        }
+        for device in of_trait(world, "device") {
+            check(&format!("Is {} on?", device.name_en), &english, &go);
+        }
+        assert!(so[0] > 10 && so[1] > 10, "{map}: {so:?}");
+    }
+}
+
+/// In a dialogue: the one condition holds and the other does not, in one line as in two.
+#[test]
+fn a_line_hinges_on_the_question_before_it() {
+    let mut engine = Engine::in_memory(rb2(), None).unwrap();
+    for (lines, done) in [
+        (&["Is Door KY open? If so, go to Room Z."][..], false),
+        (&["Check whether Door KY is open. If so, go to Room Z."], false),
+        (&["Is Door KY open?", "If so, go to Room Z."], false),
+        (&["Is Door KY open?", "If so, go to Room Y.", "If not, go to Room Z."], true),
+        (&["Дверь-КY открыта?", "Если да, поезжай в Комнату-Z."], false),
+        (&["Дверь-КY закрыта?", "Если да, поезжай в Комнату-Y."], true),
+    ] {
+        let mut dialogue = Dialogue::default();
+        let mut tasks = 0;
+        for line in lines {
+            let heard = dialogue.hear(&mut engine, line, &mut |_, _| {}).unwrap();
+            tasks += heard.tasks().count();
+        }
+        assert_eq!(tasks > 0, done, "{lines:?}");
+    }
+}
+
+/// "Switch on the lamp there. Come back": to where it was sent away, though it stayed where it was for the order between.
+#[test]
+fn an_order_on_the_spot_sends_nobody_away() {
+    let Some(mut engine) = engine(HOUSE) else { return };
+    let (_, start) = engine.robot().unwrap();
+    for line in [
+        "Go to the living room. Switch on the TV there. Come back here.",
+        "Go to the bedroom. Close Door 1. Come back.",
+        "Поезжай в гостиную. Включи там телевизор. Вернись сюда.",
+    ] {
+        let mut dialogue = Dialogue::default();
+        let heard = dialogue.hear(&mut engine, line, &mut |_, _| {}).unwrap();
+        let last = heard.tasks().last().expect("they are orders");
+        let away = (last.end.at - start.at).norm();
+        assert!(heard.tasks().count() == 3 && away < 60.0, "{line}: {away} cm off");
     }
 }

@@ -15,7 +15,7 @@ impl Asker<'_> {
     /// What is to be heard one after the other: «Скажи, где ваза, и принеси её» is a question and an order, "Go to the
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     #[must_use]
-    pub fn orders_and_questions(&self, text: &str) -> Option<Vec<String>> {
+    pub fn orders_and_questions(&self, text: &str, memory: &Memory) -> Option<Vec<String>> {
         // "Turn" begins questions as well as orders: an order before what is to be told stays one.
         let orders_first = || {
             self.orders(text)
@@ -37,12 +37,12 @@ impl Asker<'_> {
             let polite = |key: &String| ["please", "пожалуйста", "just"].contains(&key.as_str());
             let bare = word_keys(order).iter().filter(|key| !polite(key)).count() < 2;
             let order = match bare {
-                true if is_order(order) => self.way_to_what_is_asked(&question),
+                true if is_order(order) => self.way_to_what_is_asked(&question, memory),
                 true => None,
                 false => Some(order.to_owned()),
             };
             let behind = order.as_ref().filter(|_| !bare);
-            let behind = behind.and_then(|_| self.orders_and_questions(&question));
+            let behind = behind.and_then(|_| self.orders_and_questions(&question, memory));
             let behind = behind.unwrap_or_else(|| vec![question]);
             return Some(order.into_iter().chain(behind).chain(later).collect());
         }
@@ -51,11 +51,11 @@ impl Asker<'_> {
     }
 
     /// The order to go to the first of what a question names by itself; none where it names nothing that is one thing.
-    fn way_to_what_is_asked(&self, question: &str) -> Option<String> {
-        let (memory, language) = (Memory::default(), Language::of(question));
-        let knowledge = self.knowledge(language, &memory);
+    fn way_to_what_is_asked(&self, question: &str, memory: &Memory) -> Option<String> {
+        let language = Language::of(question);
+        let knowledge = self.knowledge(language, memory);
         let mut goal = None;
-        self.read(question, &memory).ok()?.each_noun(&mut |noun| {
+        self.read(question, memory).ok()?.each_noun(&mut |noun| {
             if let (None, Ok([only @ Thing::Entity(_)])) =
                 (goal, knowledge.find(noun, true).as_deref())
             {
@@ -183,6 +183,59 @@ fn asked(claim: &str) -> Option<String> {
     Some(format!("{be} {what}{not} {state}?"))
 }
 
+/// What refers to a condition that was asked: it is so, or it is not.
+const SO: [&str; 12] = [
+    "если да",
+    "если так",
+    "если это так",
+    "если есть",
+    "если нашел",
+    "если найдешь",
+    "if so",
+    "if yes",
+    "if it is",
+    "if they are",
+    "if there is",
+    "if there are",
+];
+const NOT_SO: [&str; 11] = [
+    "иначе",
+    "в противном случае",
+    "если нет",
+    "если же нет",
+    "если это не так",
+    "otherwise",
+    "or else",
+    "if not",
+    "if it is not",
+    "if it isn t",
+    "else",
+];
+
+/// Whether words only refer to a condition that was asked: "if so", «иначе».
+pub(super) fn hinges(keys: &[String]) -> bool {
+    let words = keys.join(" ");
+    SO.iter().chain(&NOT_SO).any(|phrase| *phrase == words)
+}
+
+/// An order that hinges on the answer before it, and whether that must be yes: "If so, close it", «Иначе принеси вилку».
+#[must_use]
+pub fn hinged(text: &str) -> Option<(bool, &str)> {
+    const JOINTS: [&str; 4] = ["and", "и", "а", "но"];
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let from = keys.iter().take_while(|key| JOINTS.contains(&key.as_str())).count();
+    let longest = |all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, from, p)).max();
+    let (so, not_so) = (longest(&SO).map(|n| (n, true)), longest(&NOT_SO).map(|n| (n, false)));
+    let (taken, wanted) = so.max(not_so)?;
+    let mut order = from + taken;
+    while keys.get(order).is_some_and(|key| matches!(key.as_str(), "то" | "тогда" | "then"))
+    {
+        order += 1;
+    }
+    let order = &text[words.get(order)?.start..];
+    is_order(order).then_some((wanted, order))
+}
+
 /// An order that depends on what is found: «Если дверь закрыта, открой её», "Bring the apple if it is on the shelf".
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Conditional {
@@ -215,33 +268,6 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         "the moment",
     ];
     const PERSONS: [&str; 7] = ["you", "i", "we", "ты", "я", "мы", "вы"];
-    const SO: [&str; 12] = [
-        "если да",
-        "если так",
-        "если это так",
-        "если есть",
-        "если нашел",
-        "если найдешь",
-        "if so",
-        "if yes",
-        "if it is",
-        "if they are",
-        "if there is",
-        "if there are",
-    ];
-    const NOT_SO: [&str; 11] = [
-        "иначе",
-        "в противном случае",
-        "если нет",
-        "если же нет",
-        "если это не так",
-        "otherwise",
-        "or else",
-        "if not",
-        "if it is not",
-        "if it isn t",
-        "else",
-    ];
     /// Behind these "if" asks.
     const ASKS: [&str; 14] = [
         "see",
@@ -452,11 +478,17 @@ impl Conditional {
                 "Пока это не так, а ждать событий я не умею: скажите ещё раз, когда так будет.",
                 "It is not so yet, and I do not wait for events: tell me again when it is.",
             ),
-            false => language.pick(
-                "Тогда делать нечего: проверено сейчас, следить за этим я не буду.",
-                "Then there is nothing to do: I looked now, and do not keep watching.",
-            ),
+            false => Self::nothing_to_do(language),
         }
+    }
+
+    /// That a condition does not hold under which something was to be done.
+    #[must_use]
+    pub fn nothing_to_do(language: Language) -> &'static str {
+        language.pick(
+            "Тогда делать нечего: проверено сейчас, следить за этим я не буду.",
+            "Then there is nothing to do: I looked now, and do not keep watching.",
+        )
     }
 
     /// What is told where the condition is not understood: an event, mostly.

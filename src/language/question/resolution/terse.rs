@@ -182,12 +182,14 @@ impl Asker<'_> {
         }
         // "the red one, please"
         let mut until = words.len();
+        let kept = ordered.goal.is_some();
         while until > at + 1 && BEFORE.contains(&keys[until - 1].as_str()) {
+            amends |= kept && THERE.contains(&keys[until - 1].as_str());
             until -= 1;
         }
         // «И зелёную книгу туда же», "the plate there too"
-        let kept = ordered.goal.is_some();
         while kept && until > at + 1 && THERE.contains(&keys[until - 1].as_str()) {
+            amends = true;
             until -= 1;
         }
         let rest = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
