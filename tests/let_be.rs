@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::Engine;
 use orthoframe::engine::Memory;
+use orthoframe_language::command::Command;
 use orthoframe_language::{Case, Gender, NounPhrase, Number, WordHints, english};
 use orthoframe_map::{Area, Entity, World};
 use orthoframe_units::ReplicaId;
@@ -127,4 +128,27 @@ fn one_from_each_room_is_one_of_each() {
         }
     }
     assert!(told > 40, "{told}");
+}
+
+/// "The other pens": all but those that were spoken of; before any was, they are none.
+#[test]
+fn others_are_other_than_something() {
+    let mut told = 0;
+    for map in HOUSES {
+        let Some(engine) = engine(map) else { return };
+        for kind in kinds(engine.world().unwrap()) {
+            let many = &kind.many_en;
+            let Some(all) = done_to(&engine, &format!("Bring all the {many}")) else { continue };
+            let order = format!("Bring the other {many}");
+            assert_eq!(done_to(&engine, &order), None, "{order}");
+            let mut memory = Memory::default();
+            let one = format!("Bring one {}", kind.en);
+            let Ok(first) = engine.understand_in(&one, &mut memory) else { continue };
+            let Ok(rest) = engine.understand_in(&order, &mut memory) else { continue };
+            let is_first = |command: &Command<Entity>| first[0].what() == command.what();
+            assert!(rest.len() + 1 == all.len() && !rest.iter().any(is_first), "{order}: {rest:?}");
+            told += 1;
+        }
+    }
+    assert!(told > 10, "{told}");
 }

@@ -207,6 +207,8 @@ fn a_line_hinges_on_the_question_before_it() {
         (&["Is Door KY open?", "If so, go to Room Z."], false),
         (&["Is Door KY open?", "If so, go to Room Y.", "If not, go to Room Z."], true),
         (&["Дверь-КY открыта?", "Если да, поезжай в Комнату-Z."], false),
+        (&["Is Door KY open?", "If so, go to Room V. Otherwise go to Room Z."], true),
+        (&["Is Door KY closed?", "If not, go to Room Z; if so, go to Room Y."], true),
         (&["Дверь-КY закрыта?", "Если да, поезжай в Комнату-Y."], true),
     ] {
         let mut dialogue = Dialogue::default();

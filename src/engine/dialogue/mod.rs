@@ -440,8 +440,9 @@ impl Hearing<'_, '_> {
 
     fn command(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
         let language = Language::of(line);
-        if let Some((wanted, _)) = hinged(line)
-            && self.dialogue.memory.is_so() == Some(!wanted)
+        if let Some(hinged) = hinged(line)
+            && let Some(so) = self.dialogue.memory.is_so()
+            && hinged.given(so).is_none()
         {
             return self.put(Outcome::Waiting, Conditional::nothing_to_do(language), language);
         }

@@ -36,10 +36,10 @@ impl State {
         if let Some(conditional) = conditional(sentence) {
             return self.understood_if(&conditional, memory);
         }
-        if let Some((wanted, order)) = hinged(sentence) {
-            return match memory.is_so() {
-                Some(so) if so == wanted => self.understand_in(order, memory),
-                Some(_) => Ok(vec![Command::Wait]),
+        if let Some(hinged) = hinged(sentence) {
+            return match memory.is_so().map(|so| hinged.given(so)) {
+                Some(Some(order)) => self.understand_in(order, memory),
+                Some(None) => Ok(vec![Command::Wait]),
                 None => Err(Misheard::NoneSuch(Box::new(Unanswered::unasked(sentence))).into()),
             };
         }

@@ -218,22 +218,55 @@ pub(super) fn hinges(keys: &[String]) -> bool {
     SO.iter().chain(&NOT_SO).any(|phrase| *phrase == words)
 }
 
-/// An order that hinges on the answer before it, and whether that must be yes: "If so, close it", «Иначе принеси вилку».
-#[must_use]
-pub fn hinged(text: &str) -> Option<(bool, &str)> {
-    const JOINTS: [&str; 4] = ["and", "и", "а", "но"];
-    let (words, keys) = (word_ranges(text), word_keys(text));
-    let from = keys.iter().take_while(|key| JOINTS.contains(&key.as_str())).count();
-    let longest = |all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, from, p)).max();
-    let (so, not_so) = (longest(&SO).map(|n| (n, true)), longest(&NOT_SO).map(|n| (n, false)));
-    let (taken, wanted) = so.max(not_so)?;
-    let mut order = from + taken;
-    while keys.get(order).is_some_and(|key| matches!(key.as_str(), "то" | "тогда" | "then"))
-    {
-        order += 1;
+/// What is to be done where the answer before was yes, and where it was no.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hinged<'t> {
+    pub if_so: Option<&'t str>,
+    pub otherwise: Option<&'t str>,
+}
+
+impl<'t> Hinged<'t> {
+    /// What is to be done by that answer.
+    #[must_use]
+    pub fn given(&self, so: bool) -> Option<&'t str> {
+        if so { self.if_so } else { self.otherwise }
     }
-    let order = &text[words.get(order)?.start..];
-    is_order(order).then_some((wanted, order))
+}
+
+/// Orders that hinge on the answer before them: "If so, close it. Otherwise …", «Иначе принеси вилку».
+#[must_use]
+pub fn hinged(text: &str) -> Option<Hinged<'_>> {
+    const JOINTS: [&str; 7] = ["and", "и", "а", "но", "то", "тогда", "then"];
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let joint = |n: &usize| keys.get(*n).is_some_and(|key| JOINTS.contains(&key.as_str()));
+    let behind = |from: usize| (from..=keys.len()).find(|n| !joint(n)).unwrap_or(keys.len());
+    let hinge = |n: usize| {
+        let longest = |all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, n, p)).max();
+        let (so, not) = (longest(&SO).map(|l| (l, true)), longest(&NOT_SO).map(|l| (l, false)));
+        let (taken, wanted) = so.max(not)?;
+        let order = words.get(behind(n + taken))?.start;
+        is_order(&text[order..]).then_some((order, wanted))
+    };
+    let first = behind(0);
+    let (from, wanted) = hinge(first)?;
+    let parted = |n: &usize| text[words[n - 1].end..words[*n].start].contains([',', ';', '.', '!']);
+    let second = (first + 1..words.len())
+        .filter(|n| words[*n].start > from && parted(n))
+        .find_map(|n| Some((words[n].start, hinge(behind(n))?)));
+    match second {
+        Some((end, (next, other))) if other != wanted => {
+            let (first, second) = (Some(text[from..end].trim_end()), Some(&text[next..]));
+            let (if_so, otherwise) = if wanted { (first, second) } else { (second, first) };
+            Some(Hinged { if_so, otherwise })
+        }
+        // Twice under the same condition, or once.
+        Some(_) => None,
+        None => {
+            let order = Some(&text[from..]);
+            let (if_so, otherwise) = if wanted { (order, None) } else { (None, order) };
+            Some(Hinged { if_so, otherwise })
+        }
+    }
 }
 
 /// An order that depends on what is found: «Если дверь закрыта, открой её», "Bring the apple if it is on the shelf".

@@ -166,6 +166,14 @@ impl Resolver<'_, '_> {
             };
             found.retain(|t| !given(t) && !more.told.contains(t));
         }
+        // "The other pens" before any was spoken of: other than nothing is no other.
+        if noun.other && noun.plural && noun.count.is_none() && !noun.head.anything {
+            let all = Noun { other: false, ..noun.clone() };
+            let all = self.candidates(&all, &within).map_err(|doubt| (doubt, at.clone()))?;
+            if found.len() == all.len() && more.told.is_empty() {
+                return Err((Doubt::NoReferent { word: noun.text.clone() }, at));
+            }
+        }
         let able: Vec<Thing> =
             found.iter().copied().filter(|t| self.knowledge.can(sort, *t)).collect();
         let none_can = able.is_empty();
