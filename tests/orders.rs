@@ -409,7 +409,7 @@ fn a_table_is_cleared_and_a_cup_is_put_away() {
 /// Whether an utterance can be followed in all its parts, as `do` and `talk` read it before anything is begun; else what
 /// is said against it.
 fn read(engine: &Engine, text: &str) -> Result<(), String> {
-    let error = match engine.parts_of(text).unwrap() {
+    let error = match engine.parts_of(text, &Memory::default()).unwrap() {
         Some(parts) => engine.read_ahead(&parts, &Memory::default()).err(),
         None => engine.understand(text).err(),
     };
@@ -514,7 +514,7 @@ fn neither_half_of_an_order_is_passed_over() {
                     writeln!(passed_over, "{sentence}\n    {heard_both}\n    {wanted}").unwrap();
                 }
                 // No order is taken for a question.
-                if let Some(parts) = engine.parts_of(&sentence).unwrap() {
+                if let Some(parts) = engine.parts_of(&sentence, &Memory::default()).unwrap() {
                     writeln!(passed_over, "{sentence}\n    {parts:?}").unwrap();
                 }
             }
@@ -573,7 +573,7 @@ fn all_parts_are_read_before_the_first_is_begun() {
         ("Turn on Lamp 1. Where is Cup 1?", 2),
         ("Скажи, где Чашка-1, и принеси её", 2),
     ] {
-        let found = engine.parts_of(text).unwrap().expect(text);
+        let found = engine.parts_of(text, &Memory::default()).unwrap().expect(text);
         assert_eq!(found.len(), parts, "{text}: {found:?}");
         assert_eq!(read(&engine, text), Ok(()), "{text}: {found:?}");
     }

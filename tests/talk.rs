@@ -664,7 +664,7 @@ fn orders_of_stirred_words_do_no_harm() {
         let text = text.join(" ");
         understood += usize::from(engine.understand_in(&text, &mut memory).is_ok());
         let _ = engine.is_command(&text);
-        let _ = engine.orders_and_questions(&text);
+        let _ = engine.orders_and_questions(&text, &Memory::default());
         let _ = engine.orders_tersely(&text);
         let _ = engine.resumed(&text, &memory);
     }

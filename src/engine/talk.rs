@@ -259,9 +259,13 @@ impl State {
     ///
     /// # Errors
     /// As [`State::ask`].
-    pub fn orders_and_questions(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
+    pub fn orders_and_questions(
+        &self,
+        text: &str,
+        memory: &Memory,
+    ) -> Result<Option<Vec<String>>, Error> {
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.orders_and_questions(text))
+        Ok(self.asker(&senses)?.orders_and_questions(text, memory))
     }
 
     pub(super) fn sentences_that_order_and_ask(

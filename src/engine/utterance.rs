@@ -12,16 +12,16 @@ impl State {
     ///
     /// # Errors
     /// As [`State::ask`].
-    pub fn parts_of(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
+    pub fn parts_of(&self, text: &str, memory: &Memory) -> Result<Option<Vec<String>>, Error> {
         if conditional(text).is_some() {
             return Ok(None);
         }
         let Some(sentences) = self.sentences_that_order_and_ask(text)? else {
-            return self.orders_and_questions(text);
+            return self.orders_and_questions(text, memory);
         };
         let mut parts = Vec::new();
         for sentence in sentences {
-            match self.orders_and_questions(&sentence)? {
+            match self.orders_and_questions(&sentence, memory)? {
                 Some(more) => parts.extend(more),
                 None => parts.push(sentence),
             }

@@ -209,6 +209,8 @@ thresholds! {
     /// A doorway reaches so deep into each of its rooms: what stands there bars it.
     doorway_depth = "doorway depth", Length, 1000;
     /// What is nearer to a thing touches it: of no distance is spoken.
+    /// What is thinner and no furniture is a cloth or a mat: what lies on it is on what is under it, too.
+    covering_thick = "covering thick", Length, 200;
     touch_gap = "touch gap", Length, 100;
     /// Of a top with a smaller share free people say that it has no room.
     top_free = "top free", Share, 50;

@@ -47,6 +47,7 @@ cube = { name = "Куб", rect = [40, 40], height = 40 }
 open-box = { name = "Стенки", rect = [40, 40], height = 40, roof = "permeable" }
 stick = { name = "Палка", rect = [4, 4], height = 120 }
 carpet = { name = "Полотно", rect = [300, 200], height = 1 }
+cloth = { name = "Ткань", rect = [90, 70], height = 0.5 }
 cat = { name = "Туловище", rect = [40, 15], height = 25 }
 lamp = { name = "Абажур", regular = { corners = 12, radius = 20 }, height = 20 }
 tall = { name = "Шкафчик", rect = [100, 60], height = 200 }
@@ -75,6 +76,7 @@ box = { name = "Ящик", type = "Ёмкость", items = [{ id = "A", orthofr
 drawer = { name = "Сундук", type = "Ёмкость", items = [{ id = "A", orthoframe = "cube" }] }
 stick = { name = "Швабра", type = "Вещь", items = [{ id = "A", orthoframe = "stick" }] }
 carpet = { name = "Ковёр", type = "Вещь", items = [{ id = "A", orthoframe = "carpet" }] }
+cloth = { name = "Скатерть", type = "Вещь", items = [{ id = "A", orthoframe = "cloth" }] }
 cat = { name = "Кот", type = "Вещь", items = [{ id = "A", orthoframe = "cat" }] }
 lamp = { name = "Люстра", type = "Вещь", items = [{ id = "A", orthoframe = "lamp" }] }
 wardrobe = { name = "Шкаф", type = "Вещь", items = [{ id = "A", orthoframe = "tall" }], front = "A", back = "C" }

@@ -18,9 +18,9 @@ fn placed() -> impl Strategy<Value = Placed> {
     (0usize..16, 0..420, 0..320, heights, angles)
 }
 
-const KINDS: [&str; 16] = [
+const KINDS: [&str; 17] = [
     "table", "tray", "saucer", "cup", "bookcase", "book", "cube", "box", "drawer", "stick",
-    "carpet", "cat", "lamp", "ell", "stool", "cone",
+    "carpet", "cloth", "cat", "lamp", "ell", "stool", "cone",
 ];
 
 /// Things in places that a checked map would refuse too: within each other, and through the walls.

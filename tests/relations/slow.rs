@@ -34,7 +34,7 @@ struct Shape {
 type Described = (&'static str, &'static [[f64; 6]], Option<P>);
 
 /// Objects of [`super::PRELUDE`] that hold nothing and let nothing in: prisms (x, y, width, depth, bottom, height), front.
-const SHAPES: [Described; 9] = [
+const SHAPES: [Described; 10] = [
     (
         "table",
         &[
@@ -50,6 +50,7 @@ const SHAPES: [Described; 9] = [
     ("cube", &[[0., 0., 40., 40., 0., 40.]], None),
     ("stick", &[[0., 0., 4., 4., 0., 120.]], None),
     ("carpet", &[[0., 0., 300., 200., 0., 1.]], None),
+    ("cloth", &[[0., 0., 90., 70., 0., 0.5]], None),
     ("cat", &[[0., 0., 40., 15., 0., 25.]], None),
     ("wardrobe", &[[0., 0., 100., 60., 0., 200.]], Some([0., -1.])),
     (

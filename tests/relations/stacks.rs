@@ -17,10 +17,16 @@ fn pairs(relations: &Relations, name: &str) -> Pairs {
 
 /// BORNE_BY and GOES_WITH against the obvious slow way: step by step up every stack.
 pub(super) fn check_closures(world: &World, relations: &Relations) {
-    let is_portable = |name: &str| {
+    let id = |name: &str| {
         let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
-        let id = world.find(name).into_iter().find_map(replica);
-        id.is_some_and(|id| world.has_trait(id, "portable"))
+        world.find(name).into_iter().find_map(replica).expect("a thing of the world")
+    };
+    let is_portable = |name: &str| world.has_trait(id(name), "portable");
+    let is_covering = |name: &str| {
+        let thing = relations.measurements().of_thing(id(name)).expect("it is measured");
+        let furnishes =
+            ["support", "seat", "container"].iter().any(|t| world.has_trait(id(name), t));
+        thing.top - thing.bottom <= 200 && !furnishes
     };
     let (holds, on_top) = (pairs(relations, "LIES_ON_OR_IN"), pairs(relations, "ON_TOP_OF"));
     let (mut borne, mut goes) = (Pairs::new(), Pairs::new());
@@ -34,6 +40,8 @@ pub(super) fn check_closures(world: &World, relations: &Relations) {
         while let Some(thing) = open.pop() {
             if is_portable(&thing) {
                 open.extend(over(&thing));
+            } else if is_covering(&thing) {
+                open.extend(on_top.iter().filter(|(_, y)| *y == thing).map(|(x, _)| x.clone()));
             }
             borne.insert((thing, anchor.clone()));
         }
@@ -229,6 +237,32 @@ fn a_frustum_bears_on_its_roof_alone() {
         "ON_TOP_OF",
         &expect![[r#"
             ON_TOP_OF: поднос, пуф
+        "#]],
+    );
+}
+
+/// What lies on a tablecloth is on the table under it, also what is on a tray on the cloth.
+#[test]
+fn what_lies_on_a_tablecloth_is_on_the_table() {
+    check(
+        r#"
+{ name = "стол", object = "table", at = [200, 200] },
+{ name = "скатерть", object = "cloth", at = [215, 205, 75] },
+{ name = "поднос", object = "tray", at = [230, 210, 75.5] },
+{ name = "чашка", object = "cup", at = [242, 228, 77.5] },
+{ name = "книга", object = "book", at = [290, 225, 75.5] },
+"#,
+        "BORNE_BY GOES_WITH",
+        &expect![[r#"
+            BORNE_BY: книга, скатерть
+            BORNE_BY: книга, стол
+            BORNE_BY: поднос, скатерть
+            BORNE_BY: поднос, стол
+            BORNE_BY: скатерть, стол
+            BORNE_BY: чашка, поднос
+            BORNE_BY: чашка, скатерть
+            BORNE_BY: чашка, стол
+            GOES_WITH: чашка, поднос
         "#]],
     );
 }

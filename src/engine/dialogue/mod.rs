@@ -34,8 +34,8 @@ use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
-    Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, sentences,
-    unaddressed,
+    Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, hinged,
+    sentences, unaddressed,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -317,7 +317,7 @@ impl Hearing<'_, '_> {
             heard.push((*order).to_owned());
             return self.hear_each(&heard, awaited);
         }
-        if let Some(parts) = self.engine.parts_of(line)? {
+        if let Some(parts) = self.engine.parts_of(line, &self.dialogue.memory)? {
             return self.hear_each(&parts, awaited);
         }
         self.hear_one(line, awaited)
@@ -372,6 +372,9 @@ impl Hearing<'_, '_> {
     }
 
     fn hear_one(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
+        if hinged(line).is_some() {
+            return self.command(line, awaited);
+        }
         // "I need to read something. Where are the books?" asks, whatever is said before.
         let asks = match &sentences(line)[..] {
             [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
@@ -437,6 +440,12 @@ impl Hearing<'_, '_> {
 
     fn command(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
         let language = Language::of(line);
+        if let Some(hinged) = hinged(line)
+            && let Some(so) = self.dialogue.memory.is_so()
+            && hinged.given(so).is_none()
+        {
+            return self.put(Outcome::Waiting, Conditional::nothing_to_do(language), language);
+        }
         (self.tell)(self.engine, &Event::Ordered(line));
         let commands = match self.engine.understand_in(line, &mut self.dialogue.memory) {
             Ok(commands) => commands,

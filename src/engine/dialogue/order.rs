@@ -13,7 +13,7 @@ impl Hearing<'_, '_> {
         {
             return Ok(());
         }
-        let parts = match self.engine.parts_of(task)? {
+        let parts = match self.engine.parts_of(task, &self.dialogue.memory)? {
             // «Проверь, открыт ли холодильник» orders nothing but an answer.
             Some(parts) if parts.len() == 1 => return self.ask(&parts[0]),
             None if !self.engine.is_command(task)? && self.engine.asks_something(task)? => {

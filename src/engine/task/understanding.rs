@@ -9,7 +9,9 @@ use crate::language::command::{
     Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
     without_clock,
 };
-use crate::language::question::{Answer, Conditional, Memory, Thing, Unanswered, conditional};
+use crate::language::question::{
+    Answer, Conditional, Memory, Thing, Unanswered, conditional, hinged,
+};
 use crate::map::Entity;
 use crate::units::Point;
 
@@ -33,6 +35,13 @@ impl State {
     ) -> Result<Vec<Command<Entity>>, Error> {
         if let Some(conditional) = conditional(sentence) {
             return self.understood_if(&conditional, memory);
+        }
+        if let Some(hinged) = hinged(sentence) {
+            return match memory.is_so().map(|so| hinged.given(so)) {
+                Some(Some(order)) => self.understand_in(order, memory),
+                Some(None) => Ok(vec![Command::Wait]),
+                None => Err(Misheard::NoneSuch(Box::new(Unanswered::unasked(sentence))).into()),
+            };
         }
         let before = memory.clone();
         let whole = self.understood(sentence, memory);
@@ -163,6 +172,9 @@ impl State {
             let at = spot_in_words(f64::from(x), f64::from(y), "; ");
             return Err(RequestError::OnlyGoneTo { at }.into());
         }
+        if let Some(here) = self.place_of_robot() {
+            memory.stand(Thing::Entity(here));
+        }
         if let [Command::ComeBack] = commands[..] {
             if let Some(gone) = memory.lost_place(Language::of(&resolved)) {
                 return Err(Misheard::NoneSuch(Box::new(gone)).into());
@@ -171,9 +183,6 @@ impl State {
                 let to = Placement::new(Relation::At, anchor);
                 commands = vec![Command::GoTo { to, via: None, facing: None }];
             }
-        }
-        if let Some(here) = self.place_of_robot() {
-            memory.leave(Thing::Entity(here));
         }
         let named: Vec<Thing> = commands.iter().filter_map(thing_of).map(Thing::Entity).collect();
         let going = |command: &&Command<Entity>| matches!(command, Command::GoTo { .. });

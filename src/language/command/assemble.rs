@@ -31,10 +31,16 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
     };
     // «Стоп, не едь!» must stop, whatever else is in the sentence; «подъедь к двери и остановись» only ends so, and what
     // is ordered behind it is an order of its own.
-    let is_stop = |item: &Item<'_, T>| matches!(item, Item::Verb(Verb::Stop, _));
+    let is_stop = |item: &Item<'_, T>| matches!(item, Item::Verb(Verb::Stop | Verb::Needless, _));
     let ends_so =
         matches!(&items[..], [first, .., Item::And, last] if is_stop(last) && !is_stop(first));
     if let Some(stop) = items.iter().rposition(is_stop).filter(|_| !ends_so) {
+        // «Принеси чашки, а в гостиной не надо»: what is let be is no reason to let all be.
+        if let [.., Item::Argument(_), Item::Verb(Verb::Needless, words)] = &items[..=stop]
+            && items[..stop].iter().any(|item| matches!(item, Item::Verb(..)))
+        {
+            return Err(reader.apart(words));
+        }
         let mut commands = vec![Command::Stop];
         commands.extend(reader.read(&items[stop + 1..]).unwrap_or_default());
         return Ok(commands);
@@ -180,6 +186,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         roles.with_key = clause.with_key && !locks;
         roles.haunt = clause.haunt;
         roles.listed = clause.listed;
+        // "Take the book to the kitchen, then here", "go to the kitchen, here": to two places at once.
+        let goes = matches!(verb, Verb::GoTo | Verb::Leave);
+        if let Some(me) = clause.me
+            && roles.to.is_some()
+            && (clause.me_joined || goes)
+        {
+            return Err(self.apart(me));
+        }
         if clause.to_wall {
             if roles.facing.is_some() {
                 return Err(self.apart(&roles.said.facing));
@@ -253,7 +267,6 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             Verb::Return if to_me && named => Verb::Bring,
             Verb::Return | Verb::PutBack if roles.to.is_some() && named => Verb::Put,
             Verb::Return if named => Verb::PutBack,
-            Verb::Return if to_me => return Ok(vec![Command::ComeHere]),
             Verb::Return => return Ok(vec![Command::ComeBack]),
             // «Выйди в коридор»; "leave the book on the table"
             Verb::Leave if roles.to.is_some() && !named => Verb::GoTo,
@@ -294,7 +307,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         }
         let carried = |thing: &T| self.listener.fixed.is_some_and(|fixed| !fixed(thing));
         match verb {
-            Verb::Stop => return Ok(vec![Command::Stop]),
+            Verb::Stop | Verb::Needless => return Ok(vec![Command::Stop]),
             Verb::Face => {
                 let facing = roles.facing.take();
                 let facing = facing.ok_or_else(|| self.incomplete(words, question(verb)))?;
@@ -452,7 +465,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 | Verb::Wait
                 | Verb::Face
                 | Verb::Unable
-                | Verb::Stop,
+                | Verb::Stop
+                | Verb::Needless,
                 _,
             ) => {
                 return Err(self.incomplete(words, question(verb)));

@@ -18,6 +18,9 @@ pub(super) struct Clause<'i, 's, T> {
     pub(super) haunt: Option<Haunt>,
     /// Whether each argument without a preposition stands behind «и».
     pub(super) listed: bool,
+    /// Who speaks, where the clause names that; and whether behind «и».
+    pub(super) me: Option<&'i Range<usize>>,
+    pub(super) me_joined: bool,
 }
 
 impl<T> Clause<'_, '_, T> {
@@ -80,6 +83,8 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
         to_wall: false,
         haunt: None,
         listed: true,
+        me: None,
+        me_joined: false,
     };
     for (at, item) in items.iter().enumerate() {
         // "the sofa and the bed"
@@ -87,6 +92,9 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
         let mut joined = || matches!(before.next(), Some(Item::And));
         if let Item::Argument(Argument { link: None, .. }) = item {
             clause.listed &= joined();
+        }
+        if let Item::Argument(Argument { reference: Reference::Me, words, .. }) = item {
+            (clause.me, clause.me_joined) = (Some(words), joined());
         }
         match item {
             // «мне нужно принести»: the real verb wins.

@@ -268,13 +268,21 @@ pub(super) fn without_where(said: &Said) -> Option<String> {
     })
 }
 
-/// "Go to the kitchen and back", «съезди на кухню и обратно».
+/// "Go to the kitchen and back", «съезди на кухню и обратно», "take the cup to the kitchen, then back here".
 pub(super) fn there_and_back(said: &Said) -> Option<String> {
-    let (_, _, Verb::GoTo) = said.verb_from(0)? else { return None };
+    let (verb, taken, kind) = said.verb_from(0)?;
     let ends = |n: usize| n == said.keys.len() || said.parted(n);
-    let at = (1..said.keys.len()).find(|&n| {
-        let joined = matches!(said.meaning(n - 1), Some((1, Meaning::And)));
-        joined && said.is(n, &["back", "обратно", "назад"]) && ends(n + 1)
+    let joined =
+        |n: usize| matches!(said.meaning(n - 1), Some((1, Meaning::And))) || said.parted(n);
+    let at = (verb + taken + 1..said.keys.len()).find(|&n| {
+        let back = said.is(n, &["back", "обратно", "назад"]) && joined(n);
+        let here = match said.meaning(n + 1) {
+            Some((taken, Meaning::Me)) => n + 1 + taken,
+            _ => n + 1,
+        };
+        // "Take the cup to the kitchen and back": who or what comes back is not said.
+        let told = kind == Verb::GoTo || here > n + 1;
+        back && told && ends(here)
     })?;
     Some(said.with(&(at..at + 1), Language::of(&said.keys[at]).pick("вернись", "come back")))
 }

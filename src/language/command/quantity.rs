@@ -6,7 +6,7 @@ use super::said::Said;
 use super::states::state_at;
 use super::verbs::{Sort, is_relative};
 use super::vocabulary::Meaning;
-use crate::words::Language;
+use crate::words::{Cardinal, Language};
 
 /// «всё со стола», "everything on the table", «то, что лежит на столе»: all things that are there.
 pub(super) fn everything(said: &Said) -> Option<String> {
@@ -64,6 +64,21 @@ pub(super) fn everything(said: &Said) -> Option<String> {
         let follows = before_link(at + taken) || said.is(at + taken, &["кроме", "except"]);
         follows.then(|| said.with(&(at..at + taken), things))
     })
+}
+
+/// «По одной книге из каждой комнаты», «по книге с каждого стола»: any of them from each.
+pub(super) fn so_many_from_each(said: &Said) -> Option<String> {
+    let each = |n: usize| matches!(said.meaning(n), Some((_, Meaning::All)));
+    let (verb, taken, _) = said.verb_from(0)?;
+    let at = (verb + taken..said.keys.len()).find(|&n| said.is(n, &["по"]))?;
+    let end = said.clause_end(at);
+    if !(at + 2..end).any(each) {
+        return None;
+    }
+    let one = said.is(at + 1, &["одной", "одному"]);
+    let counted = said.keys.get(at + 1).is_some_and(|key| Cardinal::read(key).is_some());
+    let any = if counted && !one { "" } else { "любую" };
+    Some(said.with(&(at..at + 1 + usize::from(one)), any))
 }
 
 /// "All lamps except the one in the bedroom", «все лампы, кроме той, что в спальне»: the noun once more.

@@ -106,6 +106,7 @@ pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
         | Verb::Wait
         | Verb::Face
         | Verb::Unable
-        | Verb::Stop => ("что сделать", "what to do"),
+        | Verb::Stop
+        | Verb::Needless => ("что сделать", "what to do"),
     }
 }

@@ -4,13 +4,15 @@
 //! Invariant: a rewriting drops only words that say what is not to be done, or that say how it is said; a text that has
 //! none of these constructions stays as it is, and what was rewritten once is not rewritten again.
 
+use std::ops::Range;
+
 use super::ellipsis;
 use super::going;
 use super::quantity;
 use super::said::{Said, is_adjective};
 use super::states::STATES;
 use super::time;
-use super::verbs::Sort;
+use super::verbs::{Sort, is_relative};
 use super::vocabulary::{Meaning, Role, Verb};
 use crate::command::Relation;
 use crate::words::Language;
@@ -31,7 +33,7 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
     use Loss::{NotMeant, Small};
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    const REWRITINGS: [(Rewriting, Loss); 37] = [
+    const REWRITINGS: [(Rewriting, Loss); 39] = [
         (time::until_called, Small),
         (time::at_the_end, Small),
         (time::told_when, Small),
@@ -39,6 +41,7 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
         (going::faced, Small),
         (going::by_lift, NotMeant),
         (going::corrected, NotMeant),
+        (spared, NotMeant),
         (without_forbidden, NotMeant),
         (contrasted, NotMeant),
         (instead, NotMeant),
@@ -46,6 +49,7 @@ pub(super) fn plain(text: &str) -> (String, Vec<String>) {
         // Before «а Книгу-4 оставь» gets its verb first.
         (left_alone, NotMeant),
         (quantity::except_one, Small),
+        (quantity::so_many_from_each, NotMeant),
         (ellipsis::verb_first, Small),
         (ellipsis::verb_again, Small),
         (ellipsis::object_again, Small),
@@ -116,8 +120,7 @@ fn without_forbidden(said: &Said) -> Option<String> {
         at += taken;
     }
     // «Не надо вилку, принеси ложку»
-    const NEEDLESS: [&str; 5] = ["не надо", "не нужно", "не нужна", "не нужен", "не нужны"];
-    if let Some(taken) = said.phrase(at, &NEEDLESS)
+    if let Some((taken, Meaning::Verb(Verb::Needless))) = said.meaning(at)
         && at + taken < said.keys.len()
         && !said.parted(at + taken)
         && said.verb_from(at + taken).is_some_and(|(verb, ..)| verb >= said.clause_end(at + taken))
@@ -136,6 +139,47 @@ fn without_forbidden(said: &Said) -> Option<String> {
             |n| matches!(said.meaning(n), Some((_, Meaning::Link(link))) if link.role == Role::Via),
         );
     (!forbidden_too && !bounds).then(|| said.with(&(at..next + 1), said.of(&(next..next + 1))))
+}
+
+/// «Принеси чашки, а в гостиной не надо»: all but those. Whether what is carried is not to go there or not to come from
+/// there, is not guessed.
+fn spared(said: &Said) -> Option<String> {
+    let (verb, taken, kind) = said.verb_from(0).filter(|(.., verb)| *verb != Verb::Needless)?;
+    let (needless, length, _) =
+        said.verb_from(verb + taken).filter(|(.., verb)| *verb == Verb::Needless)?;
+    let end = needless + length;
+    let begin = (verb + taken + 1..=needless).rev().find(|&n| said.parted(n))?;
+    let joint = |n: &usize| {
+        matches!(said.meaning(*n), Some((_, Meaning::And | Meaning::Filler)))
+            || said.is(*n, &["but", "но", "а", "только"])
+    };
+    // «…, только не надо из спальни»
+    let told = match (begin..needless).find(|n| !joint(n)) {
+        Some(from) if end == said.keys.len() || said.parted(end) => from..needless,
+        None => end..said.clause_end(end.min(said.keys.len().checked_sub(1)?)),
+        Some(_) => return None,
+    };
+    if told.is_empty() {
+        return None;
+    }
+    let end = end.max(told.end);
+    let link = said.meaning(told.start).filter(|(_, meaning)| matches!(meaning, Meaning::Link(_)));
+    let moves = matches!(Sort::of(kind), Sort::Go | Sort::Put);
+    if link.is_some_and(|(_, link)| link.says_whither()) && moves {
+        return (Sort::of(kind) == Sort::Go).then(|| said.without(&(begin..end)));
+    }
+    let noun = object_of(said, verb + taken..begin);
+    if link.is_some() && noun.is_empty() {
+        return None;
+    }
+    let except = Language::of(&said.keys[told.start]).pick("кроме", "except");
+    let mut text = said.text.clone();
+    let out = match link {
+        Some(_) => format!(" {except} {} {}", said.of(&noun), said.of(&told)),
+        None => format!(" {except} {}", with_noun(said, &told, &noun)),
+    };
+    text.replace_range(said.words[begin - 1].end..said.words[end - 1].end, &out);
+    Some(text)
 }
 
 /// «не красную чашку, а белую», "not to the kitchen but to the bedroom": the second of two, with the noun of the first.
@@ -186,7 +230,11 @@ fn excluded(said: &Said) -> Option<String> {
     let not = |n: usize| said.phrase(n, &NOT).filter(|_| said.parted(n));
     let (at, taken) = (2..said.keys.len())
         .find_map(|n| Some((n, said.phrase(n, &BUT_NOT).or_else(|| not(n))?)))?;
-    let end = said.clause_end(at + taken);
+    let mut end = said.clause_end(at + taken);
+    // «…, а не ту, что на столе»
+    if end == at + taken + 1 && is_relative(&said.keys, end - 1) && end < said.keys.len() {
+        end = said.clause_end(end);
+    }
     let told = at + taken..end;
     // «не заезжая в кухню», "not entering the kitchen" forbids; it leaves nothing out.
     if said.keys.get(told.start).is_some_and(|key| is_gerund(key)) {
@@ -239,9 +287,25 @@ fn excluded(said: &Said) -> Option<String> {
         return None;
     }
     let from = said.words[at - 1].end;
+    let noun = ordered.map_or(0..0, |(verb, heard, _)| object_of(said, verb + heard..at));
     let mut text = said.text.clone();
-    text.replace_range(from..said.words[end - 1].end, &format!(" {except} {}", said.of(&told)));
+    let out = format!(" {except} {}", with_noun(said, &told, &noun));
+    text.replace_range(from..said.words[end - 1].end, &out);
     Some(text)
+}
+
+/// What is named behind a verb, before the first preposition.
+fn object_of(said: &Said, words: Range<usize>) -> Range<usize> {
+    if words.is_empty() { words } else { ellipsis::object(said, &words).0 }
+}
+
+/// «красную» of some cups, with its noun.
+fn with_noun(said: &Said, told: &Range<usize>, noun: &Range<usize>) -> String {
+    let alone = told.len() == 1 && is_adjective(&said.keys[told.start]) && !noun.is_empty();
+    match noun.end.checked_sub(1) {
+        Some(last) if alone => format!("{} {}", said.of(told), said.of(&(last..noun.end))),
+        _ => said.of(told).to_owned(),
+    }
 }
 
 /// Whether a preposition tells where something ends up, and not through what or how near.

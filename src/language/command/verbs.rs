@@ -41,6 +41,7 @@ impl Sort {
             | Verb::CallLift
             | Verb::Report
             | Verb::Stop
+            | Verb::Needless
             | Verb::Wait
             | Verb::Unable => Self::Other,
         }

@@ -75,6 +75,8 @@ pub(super) enum Verb {
     CallLift,
     Report,
     Stop,
+    /// «не надо»: by itself nothing is to be done; behind what is named, that is let be.
+    Needless,
     /// «вернись»: to the place that is named, else to where the robot came from.
     Return,
     /// «верни на место»
@@ -239,8 +241,12 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::Stop),
         "стоп|стой|стойте|остановись|остановитесь|остановиться|хватит|прекрати|прекратите|отмена|отмени|отмени задание|\
-        забудь|забудьте|забей|неважно|не важно|не надо|не нужно|передумал|передумала|я передумал|я передумала|отставить|\
+        забудь|забудьте|забей|неважно|не важно|передумал|передумала|я передумал|я передумала|отставить|\
         stop|halt|cancel|abort|freeze|never mind|nevermind|forget it|forget about it|stop it|cancel that|don t bother",
+    ),
+    (
+        Meaning::Verb(Verb::Needless),
+        "не надо|не нужно|не нужна|не нужен|не нужны|no need|not needed|not necessary",
     ),
     (
         Meaning::Verb(Verb::Report),
@@ -330,7 +336,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::All,
-        "все|всю|обе|оба|обоих|обеих|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
+        "все|всю|обе|оба|обоих|обеих|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|каждой|каждого|каждом|каждому|all|all the|all of the|every|each|both|both the",
     ),
     (Meaning::Not, "не|нельзя|никогда|not|never|don t|do not|dont"),
     (

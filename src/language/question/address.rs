@@ -7,6 +7,7 @@
 use std::borrow::Cow;
 
 use super::mark::Mark;
+use super::orders::hinges;
 use super::several::{self, is_tag};
 use super::vocabulary;
 use crate::words::{is_first_person, word_keys};
@@ -20,7 +21,8 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     let marks = line.char_indices().filter(|(_, c)| MARKS.contains(c));
     for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
         let end = at + mark;
-        let cut = match vocabulary::parted(&word_keys(&line[from..at])) {
+        let keys = word_keys(&line[from..at]);
+        let cut = match vocabulary::parted(&keys).filter(|_| !hinges(&keys)) {
             Some(Mark::Called) => Some(Cut::Comma),
             Some(Mark::Hesitates) => asks.then_some(Cut::Comma),
             Some(Mark::Particle) => Some(Cut::within(&line[..from], &line[end..])),

@@ -29,6 +29,17 @@ impl Unanswered {
         Self { doubt: Doubt::not_understood(question), language, text, names: Vec::new() }
     }
 
+    /// Of an order that hinges on an answer where nothing was asked that is so or not: "If so, close it".
+    #[must_use]
+    pub fn unasked(order: &str) -> Self {
+        let language = Language::of(order);
+        let text = language.pick(
+            format!("Я не понимаю, о каком условии речь: «{order}»."),
+            format!("I do not understand on what this hinges: \"{order}\"."),
+        );
+        Self { doubt: Doubt::not_understood(order), language, text, names: Vec::new() }
+    }
+
     /// What was asked for is called so by nothing on the map, which denies nothing: it may be there under another name. Of a
     /// word that `known` does not say to be one, that is told as well.
     pub(super) fn not_denied(self, known: impl Fn(&str) -> bool) -> Self {

@@ -33,6 +33,8 @@ pub struct Memory {
     /// The last several things that an answer told, in its order: «вторую» counts them.
     pub(super) listed: Vec<Thing>,
     pub(super) facts: Vec<Fact>,
+    /// Whether what was asked last is so.
+    pub(super) so: Option<bool>,
     /// What the last answer said, for a "why" that rests on no fact.
     pub(super) said: Option<String>,
     /// The words of the last question: who asked for a «софа» calls a «Диван» «она».
@@ -49,6 +51,8 @@ pub struct Memory {
     pub(super) ordered: Option<Ordered>,
     /// Where the person has said to be.
     pub(super) person: Option<Entity>,
+    /// Where the robot was when it was last told something.
+    pub(super) stands: Option<Thing>,
     /// Where the robot was before it was last sent away.
     pub(super) left: Option<Thing>,
     /// The same, where it left the map since.
@@ -136,9 +140,20 @@ impl Memory {
         self.left
     }
 
-    /// Notes where the robot is while it is sent away.
-    pub fn leave(&mut self, place: Thing) {
-        (self.left, self.left_departed) = (Some(place), None);
+    /// Notes where the robot is as it is told something. Who has not moved since the order before was not sent away by it.
+    pub fn stand(&mut self, place: Thing) {
+        match self.stands.replace(place) {
+            Some(before) if before != place || self.left.is_none() => {
+                (self.left, self.left_departed) = (Some(before), None);
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether what was asked last is so; none where it was not asked whether.
+    #[must_use]
+    pub fn is_so(&self) -> Option<bool> {
+        self.so
     }
 
     /// Notes what a command came to, for "What did you do?".
@@ -152,6 +167,7 @@ impl Memory {
         self.told_place = None;
         self.is_outdated = false;
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
+            self.so = answer.is_so();
             self.facts.clone_from(&answer.facts);
             self.said = Some(answer.text.clone());
             match &answer.query {
@@ -208,10 +224,29 @@ impl Memory {
     pub fn mention(&mut self, things: &[Thing]) {
         self.hear_of_things(things);
         self.last = things.to_vec();
+        if things.len() > 1 {
+            self.listed = things.to_vec();
+        }
         for thing in things {
             self.spoken.retain(|t| t != thing);
             self.spoken.insert(0, *thing);
         }
+    }
+
+    /// What was spoken of by itself since the last list, the earliest first.
+    pub(super) fn in_turn(&self, fits: impl Fn(&Thing) -> bool) -> Vec<Thing> {
+        let told = |thing: &Thing| self.listed.contains(thing);
+        let since = self.exchanges.iter().take_while(|exchange| {
+            !self.listed.iter().all(|thing| exchange.things().any(|other| other == thing))
+                || self.listed.is_empty()
+        });
+        let mut things: Vec<Thing> = Vec::new();
+        for topic in since.filter_map(Exchange::topic) {
+            if fits(&topic) && !told(&topic) && !things.contains(&topic) {
+                things.insert(0, topic);
+            }
+        }
+        things
     }
 
     /// Notes several things, none of which is more spoken of than the others.
@@ -387,6 +422,7 @@ impl Memory {
     /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
         (self.facts, self.said, self.told_place) = (Vec::new(), None, None);
+        self.so = None;
         // "By the book, do you mean …? – Is it open?" means one of those.
         if let Doubt::Ambiguous { candidates, .. } = doubt {
             self.exchanges.insert(0, Exchange::list(candidates));

@@ -78,7 +78,7 @@ pub use doubt::{Doubt, Unanswered};
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
-pub use orders::{Conditional, conditional};
+pub use orders::{Conditional, Hinged, conditional, hinged};
 pub use query::{
     Best, Claim, Courtesy, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use super::query::Thing;
 use super::several::sentences;
-use super::{Asker, opening};
+use super::{Asker, Memory, opening};
 use crate::command::{self, is_command, is_order};
-use crate::words::{Language, is_first_person, phrase_at, word_keys, word_ranges};
+use crate::words::{Case, Language, is_first_person, phrase_at, word_keys, word_ranges};
 
 /// What parts the halves of a sentence.
 const MARKS: [char; 8] = [',', ';', '.', '!', ':', '–', '—', '?'];
@@ -14,7 +15,7 @@ impl Asker<'_> {
     /// What is to be heard one after the other: «Скажи, где ваза, и принеси её» is a question and an order, "Go to the
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     #[must_use]
-    pub fn orders_and_questions(&self, text: &str) -> Option<Vec<String>> {
+    pub fn orders_and_questions(&self, text: &str, memory: &Memory) -> Option<Vec<String>> {
         // "Turn" begins questions as well as orders: an order before what is to be told stays one.
         let orders_first = || {
             self.orders(text)
@@ -23,19 +24,46 @@ impl Asker<'_> {
         if !self.begins_as_question(text) || orders_first() {
             let (order, question) = order_and_question(text)?;
             let question = whether(&question).unwrap_or(question);
+            // «Съезди на кухню, посмотри, включена ли плита, и вернись»
+            let (question, later) =
+                match self.question_and_order(question.trim_end_matches(['?', '.', ' '])) {
+                    Some((asked, later)) => (format!("{asked}?"), Some(later.to_owned())),
+                    None => (question, None),
+                };
             if !self.begins_as_question(&question) && !question.ends_with('?') {
                 return None;
             }
-            // "Please go and see …": whither is not said, and need not be.
+            // "Please go and see …": whither is not said; to what is asked of, where that is one thing.
             let polite = |key: &String| ["please", "пожалуйста", "just"].contains(&key.as_str());
             let bare = word_keys(order).iter().filter(|key| !polite(key)).count() < 2;
-            let order = Some(order).filter(|_| !bare).map(str::to_owned);
-            let behind = order.as_ref().and_then(|_| self.orders_and_questions(&question));
+            let order = match bare {
+                true if is_order(order) => self.way_to_what_is_asked(&question, memory),
+                true => None,
+                false => Some(order.to_owned()),
+            };
+            let behind = order.as_ref().filter(|_| !bare);
+            let behind = behind.and_then(|_| self.orders_and_questions(&question, memory));
             let behind = behind.unwrap_or_else(|| vec![question]);
-            return Some(order.into_iter().chain(behind).collect());
+            return Some(order.into_iter().chain(behind).chain(later).collect());
         }
         let (question, order) = self.question_and_order(text)?;
         Some(vec![question.to_owned(), order.to_owned()])
+    }
+
+    /// The order to go to the first of what a question names by itself; none where it names nothing that is one thing.
+    fn way_to_what_is_asked(&self, question: &str, memory: &Memory) -> Option<String> {
+        let language = Language::of(question);
+        let knowledge = self.knowledge(language, memory);
+        let mut goal = None;
+        self.read(question, memory).ok()?.each_noun(&mut |noun| {
+            if let (None, Ok([only @ Thing::Entity(_)])) =
+                (goal, knowledge.find(noun, true).as_deref())
+            {
+                goal = Some(*only);
+            }
+        });
+        let go = language.pick("подъедь к", "go to");
+        Some(format!("{go} {}", knowledge.form(goal?, Case::Dative)))
     }
 
     /// A question and the order behind it, whatever joins them: a word, a mark, or both.
@@ -155,6 +183,92 @@ fn asked(claim: &str) -> Option<String> {
     Some(format!("{be} {what}{not} {state}?"))
 }
 
+/// What refers to a condition that was asked: it is so, or it is not.
+const SO: [&str; 12] = [
+    "если да",
+    "если так",
+    "если это так",
+    "если есть",
+    "если нашел",
+    "если найдешь",
+    "if so",
+    "if yes",
+    "if it is",
+    "if they are",
+    "if there is",
+    "if there are",
+];
+const NOT_SO: [&str; 11] = [
+    "иначе",
+    "в противном случае",
+    "если нет",
+    "если же нет",
+    "если это не так",
+    "otherwise",
+    "or else",
+    "if not",
+    "if it is not",
+    "if it isn t",
+    "else",
+];
+
+/// Whether words only refer to a condition that was asked: "if so", «иначе».
+pub(super) fn hinges(keys: &[String]) -> bool {
+    let words = keys.join(" ");
+    SO.iter().chain(&NOT_SO).any(|phrase| *phrase == words)
+}
+
+/// What is to be done where the answer before was yes, and where it was no.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hinged<'t> {
+    pub if_so: Option<&'t str>,
+    pub otherwise: Option<&'t str>,
+}
+
+impl<'t> Hinged<'t> {
+    /// What is to be done by that answer.
+    #[must_use]
+    pub fn given(&self, so: bool) -> Option<&'t str> {
+        if so { self.if_so } else { self.otherwise }
+    }
+}
+
+/// Orders that hinge on the answer before them: "If so, close it. Otherwise …", «Иначе принеси вилку».
+#[must_use]
+pub fn hinged(text: &str) -> Option<Hinged<'_>> {
+    const JOINTS: [&str; 7] = ["and", "и", "а", "но", "то", "тогда", "then"];
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let joint = |n: &usize| keys.get(*n).is_some_and(|key| JOINTS.contains(&key.as_str()));
+    let behind = |from: usize| (from..=keys.len()).find(|n| !joint(n)).unwrap_or(keys.len());
+    let hinge = |n: usize| {
+        let longest = |all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, n, p)).max();
+        let (so, not) = (longest(&SO).map(|l| (l, true)), longest(&NOT_SO).map(|l| (l, false)));
+        let (taken, wanted) = so.max(not)?;
+        let order = words.get(behind(n + taken))?.start;
+        is_order(&text[order..]).then_some((order, wanted))
+    };
+    let first = behind(0);
+    let (from, wanted) = hinge(first)?;
+    let parted = |n: &usize| text[words[n - 1].end..words[*n].start].contains([',', ';', '.', '!']);
+    let second = (first + 1..words.len())
+        .filter(|n| words[*n].start > from && parted(n))
+        .find_map(|n| Some((words[n].start, hinge(behind(n))?)));
+    match second {
+        Some((end, (next, other))) if other != wanted => {
+            let (first, second) = (Some(text[from..end].trim_end()), Some(&text[next..]));
+            let (if_so, otherwise) = if wanted { (first, second) } else { (second, first) };
+            Some(Hinged { if_so, otherwise })
+        }
+        // Twice under the same condition, or once.
+        Some(_) => None,
+        None => {
+            let order = Some(&text[from..]);
+            let (if_so, otherwise) = if wanted { (order, None) } else { (None, order) };
+            Some(Hinged { if_so, otherwise })
+        }
+    }
+}
+
 /// An order that depends on what is found: «Если дверь закрыта, открой её», "Bring the apple if it is on the shelf".
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Conditional {
@@ -187,33 +301,6 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         "the moment",
     ];
     const PERSONS: [&str; 7] = ["you", "i", "we", "ты", "я", "мы", "вы"];
-    const SO: [&str; 12] = [
-        "если да",
-        "если так",
-        "если это так",
-        "если есть",
-        "если нашел",
-        "если найдешь",
-        "if so",
-        "if yes",
-        "if it is",
-        "if they are",
-        "if there is",
-        "if there are",
-    ];
-    const NOT_SO: [&str; 11] = [
-        "иначе",
-        "в противном случае",
-        "если нет",
-        "если же нет",
-        "если это не так",
-        "otherwise",
-        "or else",
-        "if not",
-        "if it is not",
-        "if it isn t",
-        "else",
-    ];
     /// Behind these "if" asks.
     const ASKS: [&str; 14] = [
         "see",
@@ -424,11 +511,17 @@ impl Conditional {
                 "Пока это не так, а ждать событий я не умею: скажите ещё раз, когда так будет.",
                 "It is not so yet, and I do not wait for events: tell me again when it is.",
             ),
-            false => language.pick(
-                "Тогда делать нечего: проверено сейчас, следить за этим я не буду.",
-                "Then there is nothing to do: I looked now, and do not keep watching.",
-            ),
+            false => Self::nothing_to_do(language),
         }
+    }
+
+    /// That a condition does not hold under which something was to be done.
+    #[must_use]
+    pub fn nothing_to_do(language: Language) -> &'static str {
+        language.pick(
+            "Тогда делать нечего: проверено сейчас, следить за этим я не буду.",
+            "Then there is nothing to do: I looked now, and do not keep watching.",
+        )
     }
 
     /// What is told where the condition is not understood: an event, mostly.

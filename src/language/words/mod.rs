@@ -39,6 +39,6 @@ pub use letters::word_ranges;
 pub(crate) use letters::{is_hyphen, phrase_at, word_keys};
 pub use list::{Language, alternatives, enumerate};
 pub(crate) use measure::{area, duration, length};
-pub(crate) use number::Counted;
+pub(crate) use number::{Cardinal, Counted};
 pub(crate) use parse::may_be_noun;
 pub use phrase::NounPhrase;

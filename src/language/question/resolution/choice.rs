@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::Resolver;
+use crate::command::Sort;
 use crate::question::Doubt;
 use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
@@ -210,6 +211,71 @@ impl Resolver<'_, '_> {
             [only] => Some(*only),
             _ => self.nearest_of(found, 1).first().copied().or_else(|| found.first().copied()),
         }
+    }
+
+    /// "The second one": of the last list, or of what was spoken of one after the other since. Where both have such a
+    /// thing, it is asked which.
+    pub(super) fn told_as(
+        &self,
+        rank: usize,
+        sort: Sort,
+        noun: &Noun,
+    ) -> Result<Option<Vec<Thing>>, Doubt> {
+        let memory = self.knowledge.memory;
+        let able = |thing: &Thing| self.knowledge.can(sort, *thing);
+        let listed = match &memory.listed[..] {
+            [] => &self.spoken,
+            listed => listed,
+        };
+        let in_turn = memory.in_turn(able);
+        let meant = [listed, &in_turn[..]].map(|told| told.get(rank).filter(|_| told.len() > 1));
+        match meant {
+            [Some(one), Some(other)] if one != other => Err(Doubt::Ambiguous {
+                reference: noun.text.clone(),
+                candidates: vec![*one, *other],
+            }),
+            [None, None] => Err(Doubt::NoReferent { word: noun.text.clone() }),
+            [one, other] => Ok(one.or(other).map(|thing| vec![*thing])),
+        }
+    }
+
+    /// "One pen from each room": so many for each of the places where there are any; none where nothing is told of each.
+    ///
+    /// # Errors
+    /// In one of the places there are some, but not so many.
+    pub(super) fn of_each(
+        &self,
+        noun: &Noun,
+        within: &[Restriction],
+        found: &[Thing],
+    ) -> Result<Option<Vec<Thing>>, Doubt> {
+        let of_all = |place: &Restriction| {
+            !place.negated && matches!(&place.anchors[..], [anchor] if anchor.all)
+        };
+        let counted = noun.count.filter(|_| noun.best.is_none());
+        let wanted = match counted {
+            Some(wanted) => usize::try_from(wanted).unwrap_or(usize::MAX),
+            None if noun.all => return Ok(None),
+            None if noun.plural && !self.has_no_singular(noun) => return Ok(None),
+            None => 1,
+        };
+        let Some(at) = within.iter().position(of_all) else { return Ok(None) };
+        let places = self.knowledge.find(&within[at].anchors[0], true)?;
+        if noun.best.is_some() || places.len() < 2 {
+            return Ok(None);
+        }
+        let mut chosen: Vec<Thing> = Vec::new();
+        for place in places {
+            let mut there = within.to_vec();
+            there[at].anchors = vec![Noun::of(vec![place])];
+            let mut own = self.candidates(noun, &there)?;
+            own.retain(|thing| found.contains(thing) && !chosen.contains(thing));
+            if !own.is_empty() && own.len() < wanted {
+                return Err(Doubt::TooFew { found: own });
+            }
+            chosen.extend(self.nearest_of(&own, wanted));
+        }
+        Ok((!chosen.is_empty()).then_some(chosen))
     }
 
     /// The room in which the robot is.

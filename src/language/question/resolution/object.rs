@@ -75,10 +75,8 @@ impl Resolver<'_, '_> {
             // "the second one", in the order in which they were told
             let bare = noun.filters.is_empty() && spots.is_empty();
             if let (Some(rank), None, true) = (noun.rank, &noun.best, bare) {
-                let at = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
-                let listed = &self.knowledge.memory.listed;
-                let told = if listed.is_empty() { &self.spoken } else { listed };
-                return Ok(told.get(at).map(|t| vec![*t]));
+                let rank = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
+                return self.told_as(rank, sort, &noun).map_err(|doubt| (doubt, at));
             }
             // "the red one", and none of what was spoken of is: then of all that can be carried, say.
             if self.candidates(&noun, &[]).is_ok_and(|found| found.is_empty()) {
@@ -168,6 +166,14 @@ impl Resolver<'_, '_> {
             };
             found.retain(|t| !given(t) && !more.told.contains(t));
         }
+        // "The other pens" before any was spoken of: other than nothing is no other.
+        if noun.other && noun.plural && noun.count.is_none() && !noun.head.anything {
+            let all = Noun { other: false, ..noun.clone() };
+            let all = self.candidates(&all, &within).map_err(|doubt| (doubt, at.clone()))?;
+            if found.len() == all.len() && more.told.is_empty() {
+                return Err((Doubt::NoReferent { word: noun.text.clone() }, at));
+            }
+        }
         let able: Vec<Thing> =
             found.iter().copied().filter(|t| self.knowledge.can(sort, *t)).collect();
         let none_can = able.is_empty();
@@ -203,6 +209,11 @@ impl Resolver<'_, '_> {
         }
         if noun.all && of_things && ends_in_number {
             return Err((Doubt::not_understood(self.sentence.said(&phrase.words)), at));
+        }
+        if let Some(each) =
+            self.of_each(noun, &within, &found).map_err(|doubt| (doubt, at.clone()))?
+        {
+            return Ok(Some(each));
         }
         let both = self.is_both(&phrase.words).then_some(2);
         if let Some(wanted) = noun.count.filter(|_| noun.best.is_none()).or(both) {
@@ -407,7 +418,7 @@ impl Resolver<'_, '_> {
     }
 
     /// «Возьми часы», «ключи»: that it is plural does not tell how many are meant.
-    fn has_no_singular(&self, noun: &Noun) -> bool {
+    pub(super) fn has_no_singular(&self, noun: &Noun) -> bool {
         let lexicon = self.knowledge.lexicon();
         self.sentence.language == Language::Russian
             && noun.head.kinds.iter().any(|k| lexicon.kind(*k).phrase.number() == Number::Plural)
@@ -447,6 +458,17 @@ impl Resolver<'_, '_> {
 }
 
 impl Knowledge<'_> {
+    /// Whether people may think that such a thing can be done to it: any door is shut, and what is no furniture is carried.
+    pub(super) fn is_akin(&self, sort: Sort, thing: Thing) -> bool {
+        const FURNITURE: [&str; 4] = ["support", "seat", "bed", "container"];
+        let has = |id, wanted: &&str| self.world.has_trait(id, wanted);
+        match (sort, thing, thing.replica()) {
+            (Sort::Door, Thing::Entity(Entity::Door(_)), _) => true,
+            (Sort::Carry | Sort::Put, _, Some(id)) => !FURNITURE.iter().any(|t| has(id, t)),
+            _ => false,
+        }
+    }
+
     /// Whether a verb of this sort can be done to a thing at all.
     pub(super) fn can(&self, sort: Sort, thing: Thing) -> bool {
         let world = self.world;

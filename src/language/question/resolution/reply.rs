@@ -8,9 +8,10 @@ use crate::map::Entity;
 use crate::question::assemble;
 use crate::question::grammar::{Item, Sentence};
 use crate::question::knowledge::Knowledge;
+use crate::question::mark::Mark;
 use crate::question::memory::{Ordered, Waiting};
 use crate::question::query::{Best, Extreme, Head, Noun, Thing};
-use crate::question::{Aside, Asker, Memory, aside};
+use crate::question::{Aside, Asker, Memory, aside, vocabulary};
 use crate::units::name_key;
 use crate::words::{Case, word_keys, word_ranges};
 
@@ -100,10 +101,24 @@ impl Asker<'_> {
         while keys.last().is_some_and(is_small) {
             keys.pop();
         }
+        let knowledge = self.knowledge(ordered.language, memory);
+        let done = |next: Thing| {
+            let mut whole = ordered.without_places(at.end);
+            whole.replace_range(at.clone(), &knowledge.listed(&[next], Case::Accusative));
+            whole
+        };
+        // "Bring the third one. Now the second one": of the list that was told.
+        let listed = &memory.listed;
+        if let Some(rank) = lone_rank(&keys)
+            && listed.len() > 2
+            && candidates.iter().all(|thing| listed.contains(thing))
+        {
+            let at = usize::try_from(rank).ok()?.checked_sub(1)?;
+            return listed.get(at).map(|next| done(*next));
+        }
         if !OTHER.contains(&keys.join(" ").as_str()) {
             return None;
         }
-        let knowledge = self.knowledge(ordered.language, memory);
         let kind = |t: &Thing| {
             let object = self.world.replicas.get(&t.replica()?)?.object;
             self.world.objects.get(&object)?.object_type
@@ -114,10 +129,7 @@ impl Asker<'_> {
         let others =
             all.filter(|t| kind(t) == Some(wanted) && !candidates.contains(t) && !given(t));
         let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
-        let next = others.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)))?;
-        let mut whole = ordered.without_places(at.end);
-        whole.replace_range(at, &knowledge.listed(&[next], Case::Accusative));
-        Some(whole)
+        others.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b))).map(done)
     }
 
     /// «И на кухне тоже», "and in the kitchen too": the last command, done to what is there.
@@ -244,6 +256,19 @@ impl Asker<'_> {
         let found = knowledge.find(&noun, true).ok()?;
         let meant: Vec<Thing> = found.into_iter().filter(|t| candidates.contains(t)).collect();
         (meant.len() == 1).then_some(meant)
+    }
+}
+
+/// «вторую», "the second one": a number in an order, and nothing else.
+fn lone_rank(keys: &[String]) -> Option<u64> {
+    let from = usize::from(keys.first().is_some_and(|key| key == "the"));
+    match vocabulary::longest(keys.get(from..)?) {
+        Some((taken, Mark::Rank(rank))) => match &keys[from + taken..] {
+            [] => Some(rank),
+            [one] if one == "one" => Some(rank),
+            _ => None,
+        },
+        _ => None,
     }
 }
 

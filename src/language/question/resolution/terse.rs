@@ -7,7 +7,7 @@ use super::Resolver;
 use crate::command::{self, Sort};
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
-use crate::question::memory::Ordered;
+use crate::question::memory::{Exchange, Ordered};
 use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
 use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
@@ -182,12 +182,14 @@ impl Asker<'_> {
         }
         // "the red one, please"
         let mut until = words.len();
+        let kept = ordered.goal.is_some();
         while until > at + 1 && BEFORE.contains(&keys[until - 1].as_str()) {
+            amends |= kept && THERE.contains(&keys[until - 1].as_str());
             until -= 1;
         }
         // «И зелёную книгу туда же», "the plate there too"
-        let kept = ordered.goal.is_some();
         while kept && until > at + 1 && THERE.contains(&keys[until - 1].as_str()) {
+            amends = true;
             until -= 1;
         }
         let rest = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
@@ -436,6 +438,11 @@ impl Asker<'_> {
         }
         if last.iter().any(fits) || free && pronouns.is_empty() {
             return last;
+        }
+        // «Где яблоко? Где тостер? Принеси его»: what was asked of last, and not what was left for it.
+        let newest = memory.exchanges.first().and_then(Exchange::topic).filter(agrees);
+        if let Some(newest) = newest.filter(|t| !free && knowledge.is_akin(sort, *t)) {
+            return vec![newest];
         }
         match memory.spoken.iter().find(|t| fits(t)) {
             Some(earlier) => vec![*earlier],
