@@ -146,8 +146,8 @@ impl Level {
         let rows = -1..self.rows as i32;
         let from = STRIP as i32 + (row + 1) * self.up() as i32 + column;
         let values = |mark: &Offset| {
-            let values = &self.values[(from + mark.values) as usize..];
-            let values: &[u8; STRIP] = values.first_chunk().expect("a row ends with nothing");
+            let at = (from + mark.values) as u32 as usize;
+            let values = self.values.get(at..at + STRIP).expect("a row ends with nothing");
             let mut words = [0; STRIP / 8];
             for (word, bytes) in words.iter_mut().zip(values.as_chunks().0) {
                 *word = u64::from_le_bytes(*bytes);
