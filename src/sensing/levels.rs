@@ -146,8 +146,8 @@ impl Level {
         let rows = -1..self.rows as i32;
         let from = STRIP as i32 + (row + 1) * self.up() as i32 + column;
         let values = |mark: &Offset| {
-            let values = &self.values[(from + mark.values) as usize..];
-            let values: &[u8; STRIP] = values.first_chunk().expect("a row ends with nothing");
+            let at = (from + mark.values) as u32 as usize;
+            let values = self.values.get(at..at + STRIP).expect("a row ends with nothing");
             let mut words = [0; STRIP / 8];
             for (word, bytes) in words.iter_mut().zip(values.as_chunks().0) {
                 *word = u64::from_le_bytes(*bytes);
@@ -285,7 +285,11 @@ pub(crate) fn drawn<'l>(
     (width, height): (usize, usize),
 ) -> Vec<u8> {
     let mut fine = vec![0_u8; width * height];
-    let reach = 2.0 * SPREAD;
+    // So near, squared, a line is for it to count so much: half as much at [`SPREAD`], rounded.
+    let within: [f64; FULL as usize] = std::array::from_fn(|less| {
+        SPREAD * SPREAD * (f64::from(FULL) / (less as f64 + 0.5)).log2()
+    });
+    let reach = within[0].sqrt();
     for line in lines {
         let (a, b) = (line.start.inf(&line.end), line.start.sup(&line.end));
         let first = ((a - low).add_scalar(-reach) / cell).map(|x| x.max(0.0) as usize);
@@ -293,10 +297,10 @@ pub(crate) fn drawn<'l>(
         for row in first.y..=last.y.min(height - 1) {
             for column in first.x..=last.x.min(width - 1) {
                 let p = low + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * cell;
-                let far = (line.nearest(p) - p).norm() / SPREAD;
-                let value = f64::from(FULL) * (-far * far * std::f64::consts::LN_2).exp();
+                let far = (line.nearest(p) - p).norm_squared();
+                let value = within.iter().filter(|within| far <= **within).count() as u8;
                 let here = &mut fine[row * width + column];
-                *here = (*here).max(value.round() as u8);
+                *here = (*here).max(value);
             }
         }
     }
@@ -317,4 +321,30 @@ pub(crate) fn widened(values: &[u8], width: usize, height: usize, step: usize) -
         own.iter_mut().zip(&lower[..width]).for_each(|(a, b)| *a = (*a).max(*b));
     }
     wide
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each cell by its nearest line, and by the bell itself.
+    #[test]
+    fn what_is_drawn_falls_off_as_a_bell_does() {
+        for seed in 0..20 {
+            let mut random = fastrand::Rng::with_seed(seed);
+            let mut point = || Point2::new(random.f64() * 300.0, random.f64() * 200.0);
+            let lines: Vec<Line> =
+                (0..6).map(|_| Line { start: point(), end: point(), face: None }).collect();
+            let (low, cell, (width, height)) = (Point2::new(-40.0, -50.0), 7.3, (52, 40));
+            let values = drawn(lines.iter(), low, cell, (width, height));
+            for (at, value) in values.into_iter().enumerate() {
+                let (column, row) = ((at % width) as f64 + 0.5, (at / width) as f64 + 0.5);
+                let p = low + Vector2::new(column, row) * cell;
+                let far = |line: &Line| (line.nearest(p) - p).norm();
+                let far = lines.iter().map(far).fold(f64::INFINITY, f64::min) / SPREAD;
+                let bell = f64::from(FULL) * (-far * far).exp2();
+                assert_eq!(value, bell.round() as u8, "seed {seed}: {column}, {row}");
+            }
+        }
+    }
 }
