@@ -42,6 +42,7 @@ mod ifc;
 mod imports;
 mod joined;
 mod judged;
+mod left_out;
 mod lifts;
 mod lost;
 mod map_editing;
