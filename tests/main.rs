@@ -43,6 +43,7 @@ mod imports;
 mod joined;
 mod judged;
 mod let_be;
+mod left_out;
 mod lifts;
 mod lost;
 mod map_editing;

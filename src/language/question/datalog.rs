@@ -501,13 +501,14 @@ impl Rule<'_, '_> {
             return;
         }
         // "no wardrobe" speaks of all wardrobes: a relation of its own says which rooms have one.
-        let before = std::mem::take(&mut self.atoms);
+        // «Без кроватей и диванов» has none of either.
         for anchor in &restriction.anchors {
+            let before = std::mem::take(&mut self.atoms);
             let other = self.noun(anchor);
             self.related(restriction.rel, term, &other, self.is_room(anchor));
+            let body = std::mem::replace(&mut self.atoms, before).join(", ");
+            self.none_of(term, term, &body);
         }
-        let body = std::mem::replace(&mut self.atoms, before).join(", ");
-        self.none_of(term, term, &body);
     }
 
     /// That a term is none of those of which a body speaks: they get a relation of their own.

@@ -201,7 +201,9 @@ impl Knowledge<'_> {
                 let listed = || self.list_fitting(noun).filter(|_| !noun.restrictions.is_empty());
                 let things = had.or_else(listed).unwrap_or_else(|| self.memory.listed.clone());
                 // "Is there one in the kitchen?": any of the kind.
-                noun.head = match self.alike(&things).filter(|_| word_keys(&noun.text).len() == 1) {
+                // "Which ones are not on the bed?": of those, as what is denied leads to no others.
+                let any = word_keys(&noun.text).len() == 1 && !noun.denies();
+                noun.head = match self.alike(&things).filter(|_| any) {
                     Some(kind) => Head { kinds: vec![kind], ..Head::default() },
                     None => Head { things: Some(things), ..Head::default() },
                 };

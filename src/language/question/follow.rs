@@ -222,6 +222,11 @@ impl Asker<'_> {
         if let (true, false, Query::Count(old) | Query::Find(old)) =
             (of_those, noun.restrictions.is_empty(), last)
         {
+            // "Which chairs are in the kitchen? Which ones are in the hall?": none is in both.
+            let bare = Noun { head: Head::default(), text: String::new(), ..noun.clone() };
+            if let Some(query) = self.in_another_room(last, &bare) {
+                return Some(query);
+            }
             let mut asked = old.clone();
             asked.restrictions.extend(noun.restrictions);
             asked.filters.extend(noun.filters);

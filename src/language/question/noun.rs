@@ -266,6 +266,12 @@ impl Noun {
         })
     }
 
+    /// Whether it is told by what it is not, or where it is not.
+    pub(super) fn denies(&self) -> bool {
+        self.restrictions.iter().any(|place| place.negated)
+            || self.filters.iter().any(|filter| filter.negated)
+    }
+
     /// Does something to this noun and to all that it names.
     pub(super) fn each(&mut self, act: &mut dyn FnMut(&mut Self)) {
         act(self);

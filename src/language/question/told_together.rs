@@ -13,6 +13,24 @@ use super::{Asker, Memory, vocabulary};
 use crate::map::Entity;
 use crate::words::{Language, Number, word_keys, word_ranges};
 
+/// What a question word without its noun asks among.
+pub(super) struct Elided {
+    /// As it was asked for.
+    pub(super) all: Head,
+    /// Those that were told, where several of one kind were.
+    pub(super) told: Option<Head>,
+}
+
+impl Elided {
+    /// "Which are not on the bed?": of those that were told, as what is denied leads to no others.
+    pub(super) fn head_of(self, noun: &Noun) -> Head {
+        match self.told.filter(|_| noun.denies()) {
+            Some(told) => told,
+            None => self.all,
+        }
+    }
+}
+
 impl Asker<'_> {
     /// «Сколько этажей? – Первый и Второй. – Что на втором?»: a number without its noun, after storeys that were told.
     pub(super) fn with_storey(&self, text: &str, memory: &Memory) -> Option<String> {
@@ -132,7 +150,7 @@ impl Knowledge<'_> {
     }
 
     /// What a question word without a noun asks among: those that were told, else what was asked for.
-    pub(super) fn elided(&self) -> Option<Head> {
+    pub(super) fn elided(&self) -> Option<Elided> {
         let last = &self.memory.last;
         // «Это Часы-1, Часы-2 или Часы-3?» – «Сколько в спальне?»
         if let Some(pending) = &self.memory.pending {
@@ -144,7 +162,9 @@ impl Knowledge<'_> {
             if asked.is_some_and(of_all) {
                 return None;
             }
-            return self.alike(&things).map(|_| Head { things: Some(things), ..Head::default() });
+            self.alike(&things)?;
+            let head = Head { things: Some(things), ..Head::default() };
+            return Some(Elided { all: head.clone(), told: Some(head) });
         }
         let query = self.memory.query.as_ref()?;
         let counted = |noun: &Noun| match &noun.best {
@@ -168,7 +188,8 @@ impl Knowledge<'_> {
             let kind = self.lexicon().kind_of(&Extension::Rooms).filter(|_| all && any)?;
             Some(Head { kinds: vec![kind], ..Head::default() })
         };
-        sought.or(told).or_else(rooms)
+        let all = sought.or_else(|| told.clone()).or_else(rooms)?;
+        Some(Elided { all, told })
     }
 
     /// The one kind of some things.

@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::question::knowledge::Knowledge;
-use crate::question::query::{Head, Noun, Rel, Thing};
+use crate::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::question::{Doubt, Said};
 use crate::words::enumerate;
 
@@ -78,6 +78,33 @@ impl Knowledge<'_> {
             });
         }
         Ok(Some(parts.join("; ")))
+    }
+
+    /// "What is the biggest thing in each room?": of every place by itself.
+    pub(super) fn best_by_each(&self, noun: &Noun) -> Result<Option<Draft>, Doubt> {
+        let each =
+            |place: &Restriction| matches!(&place.anchors[..], [only] if only.all && !only.plural);
+        if noun.best.is_none() || noun.count.is_some() || !noun.restrictions.iter().any(each) {
+            return Ok(None);
+        }
+        let Some((own, rooms)) = self.in_each(noun)? else { return Ok(None) };
+        let (mut parts, mut all) = (Vec::new(), Vec::new());
+        for room in rooms {
+            let head = Head { things: Some(vec![room]), ..Head::default() };
+            let anchors = vec![Noun { head, ..Noun::default() }];
+            let mut here = own.clone();
+            here.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
+            let found = self.find(&here, false)?;
+            let place = self.place(Rel::In, &[room]);
+            parts.push(match (found.is_empty(), self.is_russian()) {
+                (false, _) => format!("{place} – {}", self.list(&found)),
+                (true, true) => format!("{place} нет {}", self.none_of(&own)),
+                (true, false) => self.there_is_no(&own, &place),
+            });
+            all.extend(found);
+        }
+        let said = if all.is_empty() { Said::Nothing } else { Said::Found };
+        Ok(Some(Draft::new(said, parts.join("; ")).with(all)))
     }
 
     /// What fits a description, by room.

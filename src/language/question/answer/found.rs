@@ -47,6 +47,9 @@ impl Knowledge<'_> {
             return Err(Doubt::NoReferent { word });
         }
         let facts = self.facts_of(noun, &found);
+        if let Some(draft) = self.best_by_each(noun)? {
+            return Ok(Draft { facts, ..draft });
+        }
         if noun.best.is_some() {
             return Ok(Draft { facts, ..self.say_best(noun, found) });
         }
@@ -503,7 +506,8 @@ impl Knowledge<'_> {
         let have = |n: usize| !found[n].is_empty();
         let any = (0..what.len()).any(have);
         let all = (0..what.len()).all(have);
-        let holds = if either { any } else { all };
+        // «Нет ни кровати, ни дивана?» denies each of them.
+        let holds = if either || denial.is_taken() { any } else { all };
         let mut parts: Vec<String> = Vec::new();
         for (noun, things) in what.iter().zip(&found) {
             parts.push(self.existing(noun, things));

@@ -266,10 +266,15 @@ impl Frame<'_, '_> {
             return Some(query);
         }
         let extreme = more?;
-        if let Some(query) = self.beyond(extreme).or_else(|| self.than_each(extreme)) {
+        if let Some(query) = self.beyond(extreme).or_else(|| self.than_each()) {
             return Some(query);
         }
+        // Of two comparatives one would be forgotten.
+        let more_than_one = self.comparatives().any(|(other, _)| other != extreme);
         let [.., first, second] = &self.nouns[..] else { return None };
+        if more_than_one {
+            return None;
+        }
         let (mut what, mut other) = (first.noun.clone(), second.noun.clone());
         // "… the fridge or the wardrobe in Room V": a place belongs to the noun before it; «Что на столе левее: …?» to all.
         for spot in &self.spots {
@@ -285,6 +290,13 @@ impl Frame<'_, '_> {
         }
         let by = self.asks_by_how_much();
         Some(Query::Larger { what, than: other, extreme, to: None, by })
+    }
+
+    fn comparatives(&self) -> impl Iterator<Item = (Extreme, usize)> + '_ {
+        self.marks.iter().filter_map(|(mark, at)| match mark {
+            Mark::More(extreme) => Some((*extreme, *at)),
+            _ => None,
+        })
     }
 
     /// "Which is the tallest: the desk, the dresser or the bed?"
@@ -313,17 +325,20 @@ impl Frame<'_, '_> {
             .then_some(Query::WhichMore { of, extreme, to: None })
     }
 
-    /// "Is the dresser taller than the fridge and the wardrobe?": than each of them.
-    fn than_each(&self, extreme: Extreme) -> Option<Query> {
-        let more =
-            self.marks.iter().find_map(|(m, at)| matches!(m, Mark::More(_)).then_some(*at))?;
+    /// "Is the dresser taller than the fridge and the wardrobe?", "… taller than the fridge and wider than the wardrobe?":
+    /// than each of them, by the comparative that stands before it.
+    fn than_each(&self) -> Option<Query> {
+        let by: Vec<(Extreme, usize)> = self.comparatives().collect();
+        let (_, first) = *by.first()?;
         let (before, after): (Vec<&Subject>, Vec<&Subject>) =
-            self.nouns.iter().partition(|s| s.at < more);
+            self.nouns.iter().partition(|s| s.at < first);
         let joined = after.len() > 1 && self.has(Mark::And) && !self.has(Mark::Or);
         let ([what], true, true) = (&before[..], joined, self.spots.is_empty()) else {
             return None;
         };
-        let each = after.iter().map(|other| Query::Larger {
+        let before = |at: usize| by.iter().rfind(|(_, by)| *by < at);
+        let each = after.iter().filter_map(|other| Some((other, before(other.at)?.0)));
+        let each = each.map(|(other, extreme)| Query::Larger {
             what: what.noun.clone(),
             than: other.noun.clone(),
             extreme,

@@ -4,16 +4,17 @@
 
 use super::Frame;
 use crate::question::mark::Mark;
-use crate::question::query::{Head, Noun, Query, Rel, Restriction};
+use crate::question::query::{Noun, Query, Rel, Restriction};
+use crate::question::told_together::Elided;
 
 impl Frame<'_, '_> {
     /// The query with the noun that its question word lacks; none where nothing was spoken of that it could be.
-    pub(super) fn filled(&self, query: Query, head: Option<Head>) -> Option<Query> {
+    pub(super) fn filled(&self, query: Query, elided: Option<Elided>) -> Option<Query> {
         if let Query::Exists { what, .. } = &query
             && let [noun] = &what[..]
             && self.is_any_of_those(noun)
         {
-            let noun = Noun { head: head?, ..noun.clone() };
+            let noun = Noun { head: elided?.head_of(noun), ..noun.clone() };
             return Some(match query {
                 Query::Exists { either, denial, .. } => {
                     Query::Exists { what: vec![noun], either, denial }
@@ -33,13 +34,13 @@ impl Frame<'_, '_> {
             {
                 let place = Restriction { rel: Rel::In, anchors: vec![room], negated: false };
                 let noun = Noun { plural: true, restrictions: vec![place], ..Noun::default() };
-                Some(Query::Count(Noun { head: head?, ..noun }))
+                Some(Query::Count(Noun { head: elided?.head_of(&noun), ..noun }))
             }
             Query::Find(noun) if self.lacks_noun(&noun) => {
-                Some(Query::Find(Noun { head: head?, ..noun }))
+                Some(Query::Find(Noun { head: elided?.head_of(&noun), ..noun }))
             }
             Query::Count(noun) if self.lacks_noun(&noun) => {
-                Some(Query::Count(Noun { head: head?, ..noun }))
+                Some(Query::Count(Noun { head: elided?.head_of(&noun), ..noun }))
             }
             query => Some(query),
         }

@@ -17,6 +17,24 @@ use crate::question::values::{Property, ValueId};
 use crate::report::Detail;
 use crate::words::everyday;
 
+/// Whether a place is none of its kind in a sentence that is denied anyway: «ни в одной комнате нет …».
+fn in_none(sentence: &Sentence<'_>, place: &Phrase) -> bool {
+    let keys = &sentence.keys;
+    let none = place.words.start.checked_sub(2).is_some_and(|n| keys[n] == "ни");
+    none && keys[place.words.start].starts_with("одн") && keys.iter().any(|key| key == "нет")
+}
+
+/// Whether a list goes on to its «и», as «…, чашки и ложки» does; a noun behind the last comma may be no part of it.
+fn listed_on(items: &[Item], sentence: &Sentence<'_>) -> bool {
+    match items {
+        [Item::Noun(_), Item::Mark(Mark::And | Mark::Or), Item::Noun(_), ..] => true,
+        [Item::Noun(a), Item::Noun(b), ..] => {
+            sentence.comma_between(a.words.end, b.words.start) && listed_on(&items[1..], sentence)
+        }
+        _ => false,
+    }
+}
+
 /// Whether a sentence names one place only, from which something is told.
 fn is_only_from(items: &[Item]) -> bool {
     let mut places = items.iter().filter_map(|item| match item {
@@ -128,9 +146,14 @@ impl<'s, 't> Frame<'s, 't> {
                             Head { kinds: before.noun.head.kinds.clone(), ..Head::default() };
                     }
                     // «кроме унитаза и раковины»
-                    let again = at > 1
-                        && matches!(items[at - 1], Item::Mark(Mark::And | Mark::Or))
-                        && excepted == Some(at - 2);
+                    let again = excepted.is_some_and(|last| match &items[last..at] {
+                        [_, Item::Mark(Mark::And | Mark::Or)] => true,
+                        [Item::Noun(last)] => {
+                            sentence.comma_between(last.words.end, phrase.words.start)
+                                && listed_on(&items[at..], sentence)
+                        }
+                        _ => false,
+                    });
                     if std::mem::take(&mut without) || again {
                         frame.except.push(noun);
                         excepted = Some(at);
@@ -226,7 +249,14 @@ impl<'s, 't> Frame<'s, 't> {
                         });
                         continue;
                     }
-                    let negated = std::mem::take(&mut not);
+                    let denied = std::mem::take(&mut not);
+                    // «Ни в одной комнате нет дивана» denies the sofa, once.
+                    let concord = denied && in_none(sentence, &nouns[0]);
+                    if concord {
+                        anchors[0].count = None;
+                        anchors[0].indefinite = true;
+                    }
+                    let negated = denied && !concord;
                     // "in a room with a window": the room has it.
                     let before = at.checked_sub(1).filter(|_| rel == Rel::Has && !either);
                     let room = frame.spots.iter().rposition(|spot| {

@@ -23,6 +23,7 @@ use super::grammar::{Item, Sentence};
 use super::lexicon::Lexicon;
 use super::mark::{Mark, Pronoun};
 use super::query::{Head, Noun, Query, Rel, Restriction, Sized, Thing};
+use super::told_together::Elided;
 use super::values::{Property, ValueId};
 
 /// What a pronoun means, in the relation of which it is the anchor.
@@ -33,7 +34,7 @@ pub(super) fn query(
     sentence: &Sentence<'_>,
     lexicon: &Lexicon,
     referent: &Referent<'_>,
-    elided: Option<Head>,
+    elided: Option<Elided>,
 ) -> Result<Query, Doubt> {
     let items = sentence.items();
     if items.is_empty() {
@@ -122,6 +123,10 @@ fn each_of(
     };
     while nouns[0] > 0 && parted(nouns[0] - 1) {
         nouns.insert(0, nouns[0] - 1);
+    }
+    // "How many chairs besides Chair 1 and Chair 2": what is left out is left out at once.
+    if nouns[0].checked_sub(1).is_some_and(|n| items[n] == Item::Mark(Mark::Except)) {
+        return None;
     }
     // «Стулья 3» is one chair by its name.
     let plural = |n: &usize| matches!(&items[*n], Item::Noun(p) if p.noun.plural && p.noun.head.named.len() != 1);

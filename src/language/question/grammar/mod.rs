@@ -290,7 +290,15 @@ impl<'t> Sentence<'t> {
             let is_bare = again.is_none() && rel != Rel::Between;
             !(is_bare && self.is_sought_too(&input.0[0], &first.noun, &noun.noun))
         };
-        let joined = |i| many0(verify(pair(pair(joint, again), next), further)).parse(i);
+        // "Which is bigger, the table in the kitchen or the one in the hall?": no place, but another table.
+        let of_place = |i: Tokens<'a>| {
+            let (rest, found) = pair(pair(joint, again), next).parse(i)?;
+            let placed = matches!(rest.0.first().map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))))
+                || !found.1.noun.restrictions.is_empty();
+            let compared = placed && found.0.1.is_none() && pointing::points(&found.1.noun);
+            if compared { fail(i) } else { Ok((rest, found)) }
+        };
+        let joined = |i| many0(verify(of_place, further)).parse(i);
         let list = many1(listed).parse(rest).and_then(|(after, listed)| {
             let (after, joined) = joined(after)?;
             Ok((after, listed.into_iter().chain(joined).collect::<Vec<_>>()))

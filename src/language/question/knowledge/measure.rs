@@ -175,10 +175,9 @@ impl Knowledge<'_> {
             Extreme::Biggest | Extreme::Smallest if is_area => extent.base,
             Extreme::Biggest | Extreme::Smallest => extent.base * extent.height,
             Extreme::Tallest | Extreme::Lowest => extent.height,
-            Extreme::Narrowest => extent.width.min(extent.depth),
-            Extreme::Widest | Extreme::Longest | Extreme::Shortest => {
-                extent.width.max(extent.depth)
-            }
+            // The width that "how wide" is answered with, which need not be the longer side.
+            Extreme::Widest | Extreme::Narrowest => extent.width,
+            Extreme::Longest | Extreme::Shortest => extent.width.max(extent.depth),
             Extreme::Topmost | Extreme::Bottommost | Extreme::Midmost if !is_area => extent.bottom,
             Extreme::Thickest | Extreme::Thinnest if !is_area => {
                 extent.width.min(extent.depth).min(extent.height)
