@@ -196,12 +196,6 @@ impl Resolver<'_, '_> {
             return Err((Doubt::not_understood(&noun.text), at));
         }
         self.excepts_something(noun, &within, &phrase.words)?;
-        // "One book from each room" is as many as there are rooms, and no one of them.
-        let of_each = within.iter().flat_map(|place| &place.anchors).any(|anchor| anchor.all);
-        let of_all = noun.all || noun.plural && noun.count.is_none() || sort == Sort::Switch;
-        if of_each && !of_all {
-            return Err((Doubt::not_understood(&noun.text), at));
-        }
         // «Принеси все чашки 2» orders neither all of them nor one.
         let numeric = |key: &String| !key.is_empty() && key.chars().all(char::is_numeric);
         let last = phrase.words.end.checked_sub(1).and_then(|last| self.sentence.keys.get(last));
