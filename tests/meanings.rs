@@ -270,6 +270,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("robot through", "position_reports::nothing_is_faced_through_a_wall"),
     ("step distance", "rooms that no link joins"),
     ("turn about", "a scan that fits several poses: engine/news.rs"),
+    ("covering thick", "a cloth between a thing and the table: tests/relations/stacks.rs"),
     ("view ahead", "what is aside of who faces a thing"),
     ("view aside", "what is aside of who faces a thing"),
     ("view behind", "what is aside of who faces a thing"),
