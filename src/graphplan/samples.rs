@@ -268,3 +268,93 @@ pub(super) fn random_errand(seed: u64) -> Task {
     let goal = random.facts(goal_count, named.facts.len());
     named.task(&init, &goal)
 }
+
+/// Crates, each in a container of its own, are brought to places of a store by one or two hands; an order that has
+/// all its crates is told so for good.
+pub(super) fn crates(seed: u64) -> Task {
+    let mut random = Random(seed);
+    let mut named = Named::default();
+    let (crates, places, hands) = (2 + random.below(2), 2 + random.below(2), 1 + random.below(2));
+    let (mut init, mut goal) = (Vec::new(), Vec::new());
+    for hand in 0..hands {
+        init.push(named.fact(&format!("free h{hand}")));
+    }
+    for place in 0..places {
+        init.push(named.fact(&format!("clear p{place}")));
+    }
+    for item in 0..crates {
+        let stored = named.fact(&format!("stored c{item}"));
+        let boxed = named.fact(&format!("on c{item} k{item}"));
+        init.push(boxed);
+        if random.below(5) > 0 {
+            goal.push(stored);
+        }
+        for hand in 0..hands {
+            let free = named.fact(&format!("free h{hand}"));
+            let held = named.fact(&format!("held h{hand} c{item}"));
+            named.operator(&[boxed, free], &[held], &[boxed, free]);
+            for place in 0..places {
+                let clear = named.fact(&format!("clear p{place}"));
+                let lies = named.fact(&format!("on c{item} p{place}"));
+                named.operator(&[held, clear], &[lies, free, stored], &[held, clear]);
+                named.operator(&[lies, free], &[held, clear], &[lies, free, stored]);
+            }
+        }
+        let (told, untold) =
+            (named.fact(&format!("told c{item}")), named.fact(&format!("untold c{item}")));
+        init.push(untold);
+        named.operator(&[stored, untold], &[told], &[untold]);
+        if random.below(3) == 0 {
+            goal.push(told);
+        }
+    }
+    named.task_in_words(&init, &goal)
+}
+
+/// Blocks that one hand takes up and puts down on others or on the table; some of them are wanted somewhere.
+pub(super) fn towers(seed: u64) -> Task {
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let mut named = Named::default();
+    let blocks = 3 + random.below(2);
+    let free = named.fact("free");
+    for block in 0..blocks {
+        let [held, clear, table] =
+            ["held", "clear", "table"].map(|word| named.fact(&format!("{word} b{block}")));
+        named.operator(&[clear, table, free], &[held], &[clear, table, free]);
+        named.operator(&[held], &[clear, table, free], &[held]);
+        for other in (0..blocks).filter(|&other| other != block) {
+            let [below, on] = [format!("clear b{other}"), format!("on b{block} b{other}")]
+                .map(|name| named.fact(&name));
+            named.operator(&[clear, on, free], &[held, below], &[clear, on, free]);
+            named.operator(&[held, below], &[clear, on, free], &[held, below]);
+        }
+    }
+    let mut stacks = |facts: &mut Vec<FactId>, is_goal: bool| {
+        let mut tops: Vec<usize> = Vec::new();
+        for turn in 0..blocks {
+            let block = if is_goal { blocks - 1 - turn } else { turn };
+            let below = random.below(tops.len() + 1);
+            let place = match tops.get(below).copied() {
+                Some(top) => {
+                    tops[below] = block;
+                    format!("on b{block} b{top}")
+                }
+                None => {
+                    tops.push(block);
+                    format!("table b{block}")
+                }
+            };
+            if !is_goal || random.below(3) > 0 {
+                facts.push(named.fact(&place));
+            }
+        }
+        if !is_goal {
+            let clear = tops.iter().map(|top| named.fact(&format!("clear b{top}")));
+            facts.extend(clear.collect::<Vec<_>>());
+        }
+    };
+    let (mut init, mut goal) = (vec![free], Vec::new());
+    stacks(&mut init, false);
+    stacks(&mut goal, true);
+    named.task(&init, &goal)
+}

@@ -161,10 +161,11 @@ impl StateSearch for BothEnds<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::onward::tests::{crates, towers};
     use super::*;
     use crate::Limits;
-    use crate::samples::{Named, Random, random_errand, random_task, random_task_with_objects};
+    use crate::samples::{
+        Named, Random, crates, random_errand, random_task, random_task_with_objects, towers,
+    };
     use crate::strips::FactId;
     use crate::tests::fewest_steps;
     use crate::validate;
