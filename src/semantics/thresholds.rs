@@ -208,9 +208,9 @@ thresholds! {
     least_speed = "least speed", Length, 250;
     /// A doorway reaches so deep into each of its rooms: what stands there bars it.
     doorway_depth = "doorway depth", Length, 1000;
-    /// What is nearer to a thing touches it: of no distance is spoken.
     /// What is thinner and no furniture is a cloth or a mat: what lies on it is on what is under it, too.
     covering_thick = "covering thick", Length, 200;
+    /// What is nearer to a thing touches it: of no distance is spoken.
     touch_gap = "touch gap", Length, 100;
     /// Of a top with a smaller share free people say that it has no room.
     top_free = "top free", Share, 50;

@@ -131,6 +131,26 @@ impl Task {
         (0..self.facts.len() as u32).map(FactId)
     }
 
+    /// For each fact the operators that add it.
+    #[must_use]
+    pub fn added_by(&self) -> Vec<Vec<OperatorId>> {
+        self.operators_by(|operator| &operator.add_effects)
+    }
+
+    /// For each fact the operators that delete it for good.
+    #[must_use]
+    pub fn deleted_by(&self) -> Vec<Vec<OperatorId>> {
+        self.operators_by(|operator| &operator.del_effects)
+    }
+
+    fn operators_by(&self, facts: impl Fn(&Operator) -> &[FactId]) -> Vec<Vec<OperatorId>> {
+        let mut by = vec![Vec::new(); self.facts.len()];
+        for id in self.operator_ids() {
+            facts(self.operator(id)).iter().for_each(|fact| by[fact.index()].push(id));
+        }
+        by
+    }
+
     pub fn operator_ids(&self) -> impl Iterator<Item = OperatorId> + use<> {
         (0..self.operators.len() as u32).map(OperatorId)
     }

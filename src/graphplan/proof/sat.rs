@@ -275,10 +275,7 @@ impl<'a> Encoding<'a> {
 /// How many steps before the end an operator must come at the latest: what adds a goal in the last, what adds a
 /// precondition of one of those in the last but one.
 fn relevance(task: &Task) -> Vec<u32> {
-    let mut achievers: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
-    for id in task.operator_ids() {
-        task.operator(id).add_effects.iter().for_each(|fact| achievers[fact.index()].push(id));
-    }
+    let achievers = task.added_by();
     let mut from = vec![u32::MAX; task.operators.len()];
     let mut asked = vec![false; task.facts.len()];
     let mut wanted = task.goal.clone();
@@ -307,10 +304,7 @@ fn relevance(task: &Task) -> Vec<u32> {
 /// adds, and bring back only what held before it. Without both, as much holds after them, and what holds in between
 /// instead is missed by nobody: who needs what the one adds is barred by the other, which deletes it.
 fn undoing(task: &Task) -> Vec<Vec<OperatorId>> {
-    let mut deleted_by: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
-    for id in task.operator_ids() {
-        task.operator(id).del_effects.iter().for_each(|fact| deleted_by[fact.index()].push(id));
-    }
+    let deleted_by = task.deleted_by();
     let undone_by = |id: OperatorId| -> Vec<OperatorId> {
         let one = task.operator(id);
         let Some(added) = one.add_effects.first() else { return Vec::new() };

@@ -31,7 +31,7 @@ struct Users {
 impl<'a> Transition<'a> {
     pub(crate) fn new(task: &'a Task) -> Self {
         let mut users = vec![Users::default(); task.facts.len()];
-        let mut added_by = vec![Vec::new(); task.facts.len()];
+        let added_by = task.added_by();
         for id in task.operator_ids() {
             let operator = task.operator(id);
             for fact in &operator.preconditions {
@@ -44,7 +44,6 @@ impl<'a> Transition<'a> {
                     users[fact.index()].breakers.push(id);
                 }
             }
-            operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(id));
             operator.renewed.iter().for_each(|fact| users[fact.index()].renewers.push(id));
         }
         for (users, adders) in users.iter_mut().zip(&added_by) {

@@ -173,13 +173,7 @@ impl<'a> Implied<'a> {
         for group in &groups.0 {
             group.facts.iter().for_each(|f| group_of[f.index()] = Some(group.number as u32));
         }
-        let mut added_by = vec![Vec::new(); task.facts.len()];
-        let mut deleted_by = added_by.clone();
-        for id in task.operator_ids() {
-            let operator = task.operator(id);
-            operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(id));
-            operator.del_effects.iter().for_each(|fact| deleted_by[fact.index()].push(id));
-        }
+        let (added_by, deleted_by) = (task.added_by(), task.deleted_by());
         Self { task, group_of, added_by, deleted_by, known: HashMap::new() }
     }
 

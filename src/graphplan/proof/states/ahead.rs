@@ -64,10 +64,7 @@ impl Bringer {
 impl Ahead {
     /// `groups` are numbers, the same for operators no two of which go into one step.
     pub(super) fn of(task: &Task, groups: &[usize]) -> Self {
-        let mut by: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
-        for id in task.operator_ids() {
-            task.operator(id).add_effects.iter().for_each(|fact| by[fact.index()].push(id));
-        }
+        let by = task.added_by();
         // What all that brings a fact needs.
         let causes = |by: &Vec<OperatorId>| -> Vec<FactId> {
             let Some((first, others)) = by.split_first() else { return Vec::new() };

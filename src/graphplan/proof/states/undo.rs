@@ -88,13 +88,7 @@ struct Implications<'a> {
 
 impl<'a> Implications<'a> {
     fn new(task: &'a Task, graph: &'a PlanningGraph) -> Self {
-        let mut added_by = vec![Vec::new(); task.facts.len()];
-        let mut deleted_by = added_by.clone();
-        for id in task.operator_ids() {
-            let operator = task.operator(id);
-            operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(id));
-            operator.del_effects.iter().for_each(|fact| deleted_by[fact.index()].push(id));
-        }
+        let (added_by, deleted_by) = (task.added_by(), task.deleted_by());
         Self { task, graph, added_by, deleted_by, known: HashMap::new() }
     }
 
