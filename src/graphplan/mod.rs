@@ -37,9 +37,9 @@
 //!   the proof of "no plan" rests on this. Past level-off a third way looks for that proof: induction over the
 //!   number of steps (`graphplan/proof/induction`) asks a solver of its own about one step at a time and keeps its
 //!   own sets; it gets a share of the effort of the other two until it comes to a plan. A fourth looks at all states up
-//!   to exchanges of what is alike (`graphplan/proof/states`), as long as these are few. What is inherited from
-//!   planning before a withdrawal is true of the new task, but the proof of "no plan" uses it only after
-//!   checking that it is closed.
+//!   to exchanges of what is alike (`graphplan/proof/states`), as long as these are few; from both ends where
+//!   operators can be undone and few states have the goal. What is inherited from planning before a withdrawal is
+//!   true of the new task, but the proof of "no plan" uses it only after checking that it is closed.
 //! - *Effort* is counted in choices, conflicts and variables set, never in seconds, so equal tasks give equal
 //!   plans; limits of time and memory, and signals, only end it. A search given up tells what it knows
 //!   (`Unfinished`): the fewest steps that are not refuted, and a plan, if forward search, asked for one after
