@@ -87,6 +87,44 @@ fn scans_meet_what_the_slow_way_meets_at_every_height() {
     assert!(short > 5_000, "{short}");
 }
 
+/// From where the robot stands nothing is met from behind: a localiser takes it that no scan shows the back of a stretch.
+#[test]
+fn beams_meet_stretches_from_their_fronts() {
+    let maps = ["rb2", "lab", "two-storeys", "room"].map(|name| format!("maps/{name}.toml"));
+    let mut worlds: Vec<World> = (0..12).map(|seed| ugly(seed).0.world).collect();
+    worlds.extend(maps.iter().map(|path| World::load(path).expect(path)));
+    let (mut one_sided, mut met) = (0, 0);
+    for (number, world) in worlds.iter().enumerate() {
+        for map in world.maps.keys() {
+            let plan = FloorPlan::build(world, *map, &world.robot, &DoorStates::new());
+            let height = 0.6 * world.robot.height.get();
+            let sight = plan.sight(world, height);
+            let stretches: Vec<Stretch> = sight.faces().collect();
+            one_sided += stretches.iter().filter(|stretch| stretch.front != Front::Both).count();
+            for area in plan.scene().areas.keys() {
+                let Some(at) = plan.rest_in(*area) else { continue };
+                for beam in sight.scan(Pose { at, heading: Deg::ZERO }, 360.0, 720, 1e4) {
+                    if beam.face.is_none() {
+                        continue;
+                    }
+                    let way = Vector::new(beam.direction.cos(), beam.direction.sin());
+                    let end = at + way * beam.distance;
+                    // What has no thickness is a stretch with a front on either side.
+                    let is_met = |stretch: &Stretch| {
+                        let foot = nearest_on_segment(end, stretch.start, stretch.end);
+                        let aside = (stretch.end - stretch.start).perp(&(at - stretch.start));
+                        let behind = if aside > 0.0 { Front::Right } else { Front::Left };
+                        (foot - end).norm() < 1e-4 && stretch.front != behind
+                    };
+                    assert!(stretches.iter().any(is_met), "world {number}: {beam:?} from {at}");
+                    met += 1;
+                }
+            }
+        }
+    }
+    assert!(one_sided > 500 && met > 10_000, "{one_sided} {met}");
+}
+
 #[test]
 fn one_looks_through_an_open_door_but_not_through_a_shut_one_nor_over_it() {
     for (kind, gap) in

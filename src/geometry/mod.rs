@@ -145,5 +145,5 @@ pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};
 pub use seen::FaceInView;
 pub use site::{DoorStates, SLACK};
 pub use surroundings::Surroundings;
-pub use view::{Beam, SeenFace, Sight, Visible, is_solid};
+pub use view::{Beam, Front, SeenFace, Sight, Stretch, Visible, is_solid};
 pub use zone::PlacedZone;

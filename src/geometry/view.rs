@@ -31,6 +31,23 @@ pub struct SeenFace {
     pub side: Option<usize>,
 }
 
+/// From where beams meet a stretch, as one looks from its start to its end: from one side where what is solid lies on the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Front {
+    Left,
+    Right,
+    Both,
+}
+
+/// A stretch that beams meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    pub face: SeenFace,
+    pub start: Point,
+    pub end: Point,
+    pub front: Front,
+}
+
 /// What one beam meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
@@ -53,6 +70,7 @@ pub struct Visible {
 pub struct Sight {
     faces: Vec<SeenFace>,
     ends: Vec<(Point, Point)>,
+    fronts: Vec<Front>,
     shape: Option<Polyline>,
 }
 
@@ -60,33 +78,49 @@ impl FloorPlan {
     /// What there is to see at `height` above the Map's zero, in cm.
     #[must_use]
     pub fn sight(&self, world: &World, height: f64) -> Sight {
-        let mut found: Vec<(SeenFace, (Point, Point))> = Vec::new();
+        let both = |(face, (start, end)): (SeenFace, (Point, Point))| Stretch {
+            face,
+            start,
+            end,
+            front: Front::Both,
+        };
+        let mut found: Vec<Stretch> = Vec::new();
         for fragment in self.fragments() {
-            for &(a, b) in &fragment.walls {
-                found.push((self.wall_face(fragment, a, b), (a, b)));
+            for &(start, end) in &fragment.walls {
+                let face = self.wall_face(fragment, start, end);
+                // A side of the Area is run through with the Area on its left; a jamb is a side of none.
+                let front = if face.side.is_some() { Front::Left } else { Front::Both };
+                found.push(Stretch { face, start, end, front });
             }
         }
         for doorway in self.doorways() {
             let Some(door) = doorway.door.and_then(|d| world.doors.get(&d)) else { continue };
             // Over a door there is wall again.
             if door.height.get() > 0.0 && door.height.get() <= height - self.level_of(doorway) {
-                found.extend((0..2).filter_map(|side| self.lintel(world, doorway, side)));
+                found.extend((0..2).filter_map(|side| self.lintel(world, doorway, side)).map(both));
                 continue;
             }
             for (leaf, polygon) in
                 doorway.leaves(door).obstacles(self.door_state(world, door.id)).iter().enumerate()
             {
                 let blocker = Blocker::DoorLeaf { door: door.id, leaf };
-                found.extend(polygon.edges().map(|e| (SeenFace { blocker, side: None }, e)));
+                found.extend(polygon.edges().map(|e| both((SeenFace { blocker, side: None }, e))));
             }
         }
         for replica in self.scene().replicas.values() {
             for prism in replica.prisms.iter().filter(|p| p.bottom <= height && height < p.top) {
                 let blocker = Blocker::Replica { replica: replica.id, item: prism.item };
+                let solid = |side: &usize| is_solid(world, replica.id, prism, *side);
+                // Where one side is seen through the others are seen from within.
+                let is_whole = (0..prism.sides.len()).all(|side| solid(&side));
                 for (side, edge) in prism.section(height).edges().enumerate() {
-                    if is_solid(world, replica.id, prism, side) {
-                        found.push((SeenFace { blocker, side: Some(side) }, edge));
+                    if !solid(&side) {
+                        continue;
                     }
+                    let seen = both((SeenFace { blocker, side: Some(side) }, edge));
+                    // Counter-clockwise about what is solid.
+                    let front = if is_whole { Front::Right } else { Front::Both };
+                    found.push(Stretch { front, ..seen });
                 }
             }
         }
@@ -158,19 +192,27 @@ pub fn is_solid(
 }
 
 impl Sight {
-    fn of(found: Vec<(SeenFace, (Point, Point))>) -> Self {
-        let (faces, ends): (Vec<_>, Vec<_>) =
-            found.into_iter().filter(|(_, (a, b))| (b - a).norm() > 1e-9).unzip();
+    fn of(mut found: Vec<Stretch>) -> Self {
+        found.retain(|stretch| (stretch.end - stretch.start).norm() > 1e-9);
+        let faces = found.iter().map(|stretch| stretch.face).collect();
+        let fronts = found.iter().map(|stretch| stretch.front).collect();
+        let ends: Vec<_> = found.iter().map(|stretch| (stretch.start, stretch.end)).collect();
         let vertices =
             ends.iter().flat_map(|&(a, b)| [a, b]).map(|p| Vec2::new(p.x, p.y)).collect();
         let indices = (0..ends.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         let shape = (!ends.is_empty()).then(|| Polyline::new(vertices, Some(indices)));
-        Self { faces, ends, shape }
+        Self { faces, ends, fronts, shape }
     }
 
-    /// Every face with its ends, as it stands in the floor plan; a side that is seen through is none.
-    pub fn faces(&self) -> impl ExactSizeIterator<Item = (SeenFace, Point, Point)> + '_ {
-        self.faces.iter().zip(&self.ends).map(|(face, (a, b))| (*face, *a, *b))
+    /// Every face, as it stands in the floor plan; a side that is seen through is none.
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = Stretch> + '_ {
+        let ends = self.ends.iter().zip(&self.fronts);
+        self.faces.iter().zip(ends).map(|(&face, (&(start, end), &front))| Stretch {
+            face,
+            start,
+            end,
+            front,
+        })
     }
 
     /// Casts one beam.

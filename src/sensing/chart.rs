@@ -9,7 +9,7 @@ use parry2d_f64::math::Vector as Vec2;
 use parry2d_f64::query::Ray;
 use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 
-use crate::geometry::{Blocker, FloorPlan, SeenFace, nearest_on_segment};
+use crate::geometry::{Blocker, FloorPlan, Front, SeenFace, Stretch, nearest_on_segment};
 use crate::map::World;
 use crate::vectors::Segment;
 use crate::vectors::read::Scan;
@@ -20,11 +20,19 @@ use crate::vectors::scan::{Extractor, Sensor};
 pub struct Line {
     pub start: Point2<f64>,
     pub end: Point2<f64>,
+    /// From where it is seen.
+    pub front: Front,
     /// What of the Map it belongs to.
     pub face: Option<SeenFace>,
 }
 
 impl Line {
+    /// A stretch of nothing known, seen from both sides.
+    #[must_use]
+    pub fn between(start: Point2<f64>, end: Point2<f64>) -> Self {
+        Self { start, end, front: Front::Both, face: None }
+    }
+
     pub(crate) fn direction(&self) -> Vector2<f64> {
         (self.end - self.start).normalize()
     }
@@ -104,9 +112,10 @@ impl Chart {
     #[must_use]
     pub fn of_map(world: &World, plan: &FloorPlan, height: f64) -> Self {
         let sight = plan.sight(world, height);
-        let line = |(face, a, b): (SeenFace, crate::units::Point, crate::units::Point)| Line {
-            start: Point2::new(a.x, a.y),
-            end: Point2::new(b.x, b.y),
+        let line = |Stretch { face, start, end, front }| Line {
+            start: Point2::new(start.x, start.y),
+            end: Point2::new(end.x, end.y),
+            front,
             face: Some(face),
         };
         Self::new(sight.faces().map(line).collect())
@@ -122,11 +131,8 @@ impl Chart {
             let placed = |p: nalgebra::SVector<f64, 2>| pose * Point2::from(p);
             let segments = extractor.segments(sensor, &scan.ranges).iter();
             let long = segments.filter(|segment| segment.length() >= LEAST_WALL);
-            let line = |segment: &Segment<2>| Line {
-                start: placed(segment.start),
-                end: placed(segment.end),
-                face: None,
-            };
+            let line =
+                |segment: &Segment<2>| Line::between(placed(segment.start), placed(segment.end));
             lines.extend(long.map(line).filter(|line| known.takes_in(line)));
         }
         Self::new(lines).erring(ENDS)
@@ -230,6 +236,15 @@ impl Chart {
             }
         }
         best
+    }
+
+    /// The lines near a point, of those within 40 cm all.
+    pub(crate) fn about(&self, p: Point2<f64>) -> impl Iterator<Item = usize> + use<'_> {
+        let at = (p - self.corner) / BUCKET;
+        let is_within = at.x >= 0.0 && at.y >= 0.0 && (at.x as usize) < self.columns;
+        let bucket = at.y as usize * self.columns + at.x as usize;
+        let near = self.buckets.get(bucket).filter(|_| is_within);
+        near.into_iter().flatten().map(|(_, number)| *number as usize)
     }
 
     /// Whether no line lies within a distance of a point.

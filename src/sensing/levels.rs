@@ -2,6 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 
+use crate::geometry::Front;
+
 use super::chart::{Chart, ENDS, Line};
 
 /// How far a return may lie from a line to count half, in cm.
@@ -17,10 +19,17 @@ const GROUP: usize = 15;
 /// Returns whose sum fits half a byte.
 const PACKED: usize = 3;
 const _: () = assert!(FULL as usize * PACKED < 16 && FULL as usize * GROUP < 256);
-/// Courses by which lines are told apart, in half a turn; one raster more has all lines.
-pub(crate) const COURSES: usize = 16;
+/// Courses by which lines are told apart, their fronts on the left.
+const COURSES: usize = 32;
+/// The kinds of lines: of each course all, of each course the long ones, and all.
+pub(crate) const KINDS: usize = 2 * COURSES + 1;
+/// What is seen of a line by so much longer than this, in cm, is of one that is long.
+const LONG: f64 = 100.0;
+const LONGER: f64 = 20.0;
 /// What is seen to run along a line turns from it by no more than this, in degrees, and by what its ends err.
 const ASTRAY: f64 = 6.0;
+/// A line goes on from another so far off, in cm.
+const GAP: f64 = 15.0;
 /// Parts of a degree by which courses are told apart that no line has.
 pub(crate) const FINE: f64 = 2.0;
 /// Empty cells about the building, so that a window may begin before it: twice the coarsest.
@@ -246,21 +255,88 @@ pub(crate) fn course(along: Vector2<f64>, ends: f64) -> (f64, f64) {
     (along.y.atan2(along.x).to_degrees(), errs)
 }
 
-/// Whether what is seen of a line can have a course; all lines are of the last.
-pub(crate) fn is_of(line: &Line, kind: usize) -> bool {
+/// The courses of a line, as it is seen from each of its fronts.
+fn courses(line: &Line, ends: f64) -> impl Iterator<Item = (f64, f64)> + use<> {
+    let along = line.end - line.start;
+    let of = |other: Front, along| (line.front != other).then_some(along);
+    [of(Front::Right, along), of(Front::Left, -along)]
+        .into_iter()
+        .flatten()
+        .map(move |along| course(along, ends))
+}
+
+/// Of which kind the lines are that what is seen can be of, by the course of that in degrees; of all where it has none.
+pub(crate) fn kind(seen: Option<(f64, f64)>) -> usize {
+    let Some((course, length)) = seen else { return KINDS - 1 };
+    let number = (course * COURSES as f64 / 360.0 + 0.5) as usize % COURSES;
+    if is_long(length) { COURSES + number } else { number }
+}
+
+/// Whether so much is seen only of what is long.
+pub(crate) fn is_long(seen: f64) -> bool {
+    seen > LONG + LONGER
+}
+
+/// Whether a line is of a kind, where it is `whole` cm long with what goes on from it.
+pub(crate) fn is_of(line: &Line, whole: f64, kind: usize) -> bool {
+    if kind == KINDS - 1 {
+        return true;
+    }
+    let step = 360.0 / COURSES as f64;
     // What is seen of it is no longer than it is.
-    let ((course, errs), step) = (course(line.end - line.start, ENDS), 180.0 / COURSES as f64);
-    let off = (course - kind as f64 * step + 90.0).rem_euclid(180.0) - 90.0;
-    kind == COURSES || off.abs() <= step / 2.0 + ASTRAY + errs
+    let is_along = |(course, errs): (f64, f64)| {
+        let off = (course - (kind % COURSES) as f64 * step + 180.0).rem_euclid(360.0) - 180.0;
+        off.abs() <= step / 2.0 + ASTRAY + errs
+    };
+    (kind < COURSES || whole >= LONG) && courses(line, ENDS).any(is_along)
+}
+
+/// How long each line is with those that go on from it, where it is not long by itself; endless where the chart's lines err:
+/// then they may be pieces of any.
+pub(crate) fn wholes(chart: &Chart) -> Vec<f64> {
+    let lines = chart.lines();
+    if chart.ends() > 0.0 {
+        return vec![f64::INFINITY; lines.len()];
+    }
+    let mut wholes: Vec<f64> = lines.iter().map(|line| (line.end - line.start).norm()).collect();
+    let mut is_known: Vec<bool> = wholes.iter().map(|length| *length >= LONG).collect();
+    let goes_on = |a: &Line, b: &Line, at: Point2<f64>| {
+        let turn = a.direction().perp(&b.direction()).abs().asin().to_degrees();
+        turn <= ASTRAY && (b.nearest(at) - at).norm() <= GAP
+    };
+    for first in 0..lines.len() {
+        if std::mem::replace(&mut is_known[first], true) {
+            continue;
+        }
+        let (mut run, mut next) = (vec![first], 0);
+        while let Some(line) = run.get(next).map(|number| &lines[*number]) {
+            next += 1;
+            for end in [line.start, line.end] {
+                let on = chart.about(end).filter(|other| goes_on(line, &lines[*other], end));
+                let on: Vec<usize> = on.filter(|other| !run.contains(other)).collect();
+                run.extend(on);
+            }
+        }
+        let along = lines[first].direction();
+        let places = run.iter().flat_map(|number| [lines[*number].start, lines[*number].end]);
+        let places = places.map(|p| p.coords.dot(&along));
+        let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), place| {
+            (low.min(place), high.max(place))
+        });
+        for number in run {
+            is_known[number] = true;
+            wholes[number] = wholes[number].max(high - low);
+        }
+    }
+    wholes
 }
 
 /// By how many degrees each course differs from the nearest of a line.
 pub(crate) fn off(chart: &Chart) -> Vec<f64> {
-    let count = (180.0 * FINE) as usize;
+    let count = (360.0 * FINE) as usize;
     let mut off = vec![f64::INFINITY; count];
-    for line in chart.lines() {
-        let (course, errs) = course(line.end - line.start, chart.ends());
-        let at = ((course - errs).rem_euclid(180.0) * FINE) as usize;
+    for (course, errs) in chart.lines().iter().flat_map(|line| courses(line, chart.ends())) {
+        let at = ((course - errs).rem_euclid(360.0) * FINE) as usize;
         for n in 0..=(2.0 * errs * FINE).ceil() as usize {
             off[(at + n) % count] = 0.0;
         }
@@ -333,8 +409,7 @@ mod tests {
         for seed in 0..20 {
             let mut random = fastrand::Rng::with_seed(seed);
             let mut point = || Point2::new(random.f64() * 300.0, random.f64() * 200.0);
-            let lines: Vec<Line> =
-                (0..6).map(|_| Line { start: point(), end: point(), face: None }).collect();
+            let lines: Vec<Line> = (0..6).map(|_| Line::between(point(), point())).collect();
             let (low, cell, (width, height)) = (Point2::new(-40.0, -50.0), 7.3, (52, 40));
             let values = drawn(lines.iter(), low, cell, (width, height));
             for (at, value) in values.into_iter().enumerate() {

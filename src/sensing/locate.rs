@@ -246,11 +246,11 @@ impl<'c> Localiser<'c> {
         ranges: &[f64],
         places: impl IntoIterator<Item = Isometry2<f64>>,
     ) -> Answer {
-        let returns = self.returns(sensor, ranges);
+        let some = thinned(&self.returns(sensor, ranges), SEARCHED);
         let mut fits: Vec<Fit> = Vec::new();
         for place in places {
             let fit = self
-                .fit(sensor, ranges, &returns, place, WIDE)
+                .fit(sensor, ranges, &some, place, WIDE)
                 .unwrap_or_else(|| self.fit_at(sensor, ranges, place, loosely()));
             let is_known = fits.iter().any(|known| is_near(&known.pose, &fit.pose, APART));
             if self.explains(&fit) && !is_known {

@@ -13,7 +13,8 @@ use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
 
 use super::chart::{Chart, ENDS};
 use super::levels::{
-    BORDER, COURSES, FINE, FULL, LEVELS, Level, Offsets, STRIP, course, drawn, is_of, off, widened,
+    BORDER, FINE, FULL, KINDS, LEVELS, Level, Offsets, STRIP, course, drawn, is_long, is_of, kind,
+    off, wholes, widened,
 };
 
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
@@ -41,18 +42,20 @@ pub(crate) struct Mark {
     pub(crate) course: Option<Course>,
 }
 
-/// In degrees of half a turn, and by how much it may be off.
+/// In degrees, its front on the left, and by how much it may be off.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Course {
     degrees: f64,
     astray: f64,
+    /// How much is seen along it, in cm.
+    length: f64,
 }
 
 impl Course {
-    /// Of a line that is seen.
+    /// Of a line that is seen from its left.
     pub(crate) fn of(v: Vector2<f64>) -> Self {
         let (degrees, errs) = course(v, ENDS);
-        Self { degrees, astray: errs + STEADY }
+        Self { degrees, astray: errs + STEADY, length: v.norm() }
     }
 }
 
@@ -122,8 +125,8 @@ impl<'p> Turned<'p> {
         let count = marks.len();
         let stride = (count * 5 / 8..).find(|stride| gcd(*stride, count) == 1).unwrap_or(1);
         let mut marks: Vec<Mark> = (0..count).map(|k| marks[k * stride % count]).collect();
-        // Those of a course first: fewer lines have it than there are.
-        marks.sort_by_key(|mark| mark.course.is_none());
+        // Those of a long line first, then those of a course: fewer lines are of these.
+        marks.sort_by_key(|mark| mark.course.map_or(2, |seen| u8::from(!is_long(seen.length))));
         let (cells, known) = (vec![None; TURNS], vec![None; LEVELS * TURNS]);
         Self { pyramid, marks, cells, known }
     }
@@ -131,14 +134,9 @@ impl<'p> Turned<'p> {
     fn at(&mut self, level: usize, turn: usize) -> &Offsets {
         let Self { pyramid, marks, cells, known } = self;
         known[level * TURNS + turn].get_or_insert_with(|| {
-            let cells = cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn));
+            let cells = cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn, 1));
             pyramid.levels[level].offsets(cells.iter().copied())
         })
-    }
-
-    fn cells(&mut self, turn: usize) -> &[(i32, i32, usize)] {
-        let Self { pyramid, marks, cells, .. } = self;
-        cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn))
     }
 }
 
@@ -158,8 +156,10 @@ impl Pyramid {
         // Where lines run one of two ways, several courses have the same ones: one raster is enough for them.
         let mut drawn_of: Vec<Vec<bool>> = Vec::new();
         let mut kinds = Vec::new();
-        for kind in 0..=COURSES {
-            let of: Vec<bool> = chart.lines().iter().map(|line| is_of(line, kind)).collect();
+        let wholes = wholes(chart);
+        for kind in 0..KINDS {
+            let lines = chart.lines().iter().zip(&wholes);
+            let of: Vec<bool> = lines.map(|(line, whole)| is_of(line, *whole, kind)).collect();
             if !of.contains(&true) {
                 kinds.push(None);
                 continue;
@@ -203,8 +203,9 @@ impl Pyramid {
         (offsets, beyond)
     }
 
-    /// Where marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there.
-    fn turned(&self, marks: &[Mark], turn: usize) -> Vec<(i32, i32, usize)> {
+    /// Where marks lie at a turn, in cells, and which raster is theirs, without those of a course that no line has there or at one
+    /// of so many turns about it.
+    fn turned(&self, marks: &[Mark], turn: usize, among: usize) -> Vec<(i32, i32, usize)> {
         let (sin, cos) = degrees(turn).to_radians().sin_cos();
         let middle = degrees(turn - turn % SWEEP + SWEEP / 2);
         let one = |mark: &Mark| {
@@ -213,18 +214,18 @@ impl Pyramid {
                 let v = v / self.cell;
                 (v + 0.5_f64.copysign(v)) as i32
             };
-            let kind = match mark.course {
-                None => COURSES,
-                Some(Course { degrees: seen, astray }) => {
-                    let course = (seen + middle).rem_euclid(180.0);
-                    let off = self.off[(course * FINE) as usize % self.off.len()];
-                    if off > astray + degrees(SWEEP) / 2.0 {
-                        return None;
-                    }
-                    (course * COURSES as f64 / 180.0 + 0.5) as usize % COURSES
-                }
+            let is_met = |course: &Course| {
+                let here = (course.degrees + degrees(turn)).rem_euclid(360.0);
+                let off = self.off[(here * FINE) as usize % self.off.len()];
+                off <= course.astray + degrees(among) / 2.0
             };
-            Some((cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), self.kinds[kind]?))
+            if !mark.course.as_ref().is_none_or(is_met) {
+                return None;
+            }
+            let seen =
+                |course: Course| ((course.degrees + middle).rem_euclid(360.0), course.length);
+            let kind = self.kinds[kind(mark.course.map(seen))]?;
+            Some((cell(cos * p.x - sin * p.y), cell(sin * p.x + cos * p.y), kind))
         };
         marks.iter().filter_map(one).collect()
     }
@@ -306,18 +307,33 @@ impl Pyramid {
     fn coarsest(&self, turned: &mut Turned<'_>, needed: u16) -> Open {
         let mut open = Open::default();
         let top = LEVELS - 1;
+        // Of so many strips that were looked at for several turns together so many had to be looked at for each.
+        let mut swept = (0, 0);
+        // That spares more than it costs.
+        let is_worth = |(looked, passed): (usize, usize), turns: usize| {
+            turns > 1 && (looked < 64 || (looked - passed) * turns > looked)
+        };
         for first in (0..TURNS).step_by(SWEEP) {
-            let (marks, beyond) = self.swept(turned.cells(first + SWEEP / 2));
-            if u16::from(FULL) * ((marks.len() + beyond) as u16) < needed {
+            let middle = self.turned(&turned.marks, first + SWEEP / 2, SWEEP);
+            if u16::from(FULL) * (middle.len() as u16) < needed {
                 continue;
             }
+            let turns: Vec<usize> = (first..first + SWEEP)
+                .filter(|turn| u16::from(FULL) * turned.at(top, *turn).len() as u16 >= needed)
+                .collect();
+            let (marks, beyond) = self.swept(&middle);
             let rough = needed.saturating_sub(u16::from(FULL) * beyond as u16);
             for row in (0..self.height.div_ceil(1 << top)).step_by(2) {
                 for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
-                    if self.swept.sums(&marks, column as i32, row as i32, rough).is_none() {
-                        continue;
+                    if is_worth(swept, turns.len()) {
+                        let sums = self.swept.sums(&marks, column as i32, row as i32, rough);
+                        swept.0 += 1;
+                        if sums.is_none() {
+                            continue;
+                        }
+                        swept.1 += 1;
                     }
-                    for turn in first..first + SWEEP {
+                    for &turn in &turns {
                         let marks = turned.at(top, turn);
                         self.open(&mut open, top, marks, (turn, column, row), needed);
                     }
@@ -471,6 +487,8 @@ impl Open {
 mod tests {
     use std::collections::HashSet;
 
+    use crate::geometry::Front;
+
     use super::super::chart::Line;
     use super::*;
 
@@ -479,7 +497,7 @@ mod tests {
         let finest = &pyramid.levels[0];
         let mut scored = Vec::new();
         for turn in 0..TURNS {
-            let turned = pyramid.turned(marks, turn);
+            let turned = pyramid.turned(marks, turn, 1);
             for row in 0..pyramid.height {
                 for column in 0..pyramid.width {
                     let one = |(x, y, kind): &(i32, i32, usize)| {
@@ -512,19 +530,24 @@ mod tests {
         ] {
             let mut random = fastrand::Rng::with_seed(seed);
             let mut point = || Point2::new(random.f64() * wide, random.f64() * 200.0);
+            let at = Vector2::new(wide / 2.0 - 5.0, 90.0);
             let line = |number: usize| {
-                let (start, mut end) = (point(), point());
+                let (mut start, mut end) = (point(), point());
                 if is_square {
                     end[number % 2] = start[number % 2];
                 }
-                Line { start, end, face: None }
+                // Its front is where it is looked at from.
+                if (end - start).perp(&(at - start.coords)) < 0.0 {
+                    std::mem::swap(&mut start, &mut end);
+                }
+                let front = if number % 4 == 0 { Front::Both } else { Front::Left };
+                Line { front, ..Line::between(start, end) }
             };
             let lines: Vec<Line> = (0..count).map(line).collect();
             let chart = Chart::new(lines);
             let pyramid = Pyramid::of(&chart);
             let rasters: HashSet<usize> = pyramid.kinds.iter().copied().flatten().collect();
             assert!(!is_square || rasters.len() < pyramid.kinds.iter().flatten().count());
-            let at = Vector2::new(wide / 2.0 - 5.0, 90.0);
             let pose = Isometry2::new(at, 1.0 + f64::from(seed as u32));
             let marks: Vec<Mark> = (0..28)
                 .filter_map(|beam| {

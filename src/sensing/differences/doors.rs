@@ -107,7 +107,10 @@ impl<'w> Doors<'w> {
                     let face =
                         SeenFace { blocker: Blocker::DoorLeaf { door: door.id, leaf }, side: None };
                     let edges: Vec<_> = polygon.edges().collect();
-                    edges.into_iter().map(move |(start, end)| Line { start, end, face: Some(face) })
+                    edges.into_iter().map(move |(start, end)| Line {
+                        face: Some(face),
+                        ..Line::between(start, end)
+                    })
                 };
                 leaves.into_iter().enumerate().flat_map(line).collect::<Vec<_>>()
             };

@@ -252,8 +252,7 @@ impl<'w> Inspector<'w> {
     #[must_use]
     pub fn is_gone(&self, pieces: &[Polygon]) -> bool {
         let edges = pieces.iter().flat_map(|piece| piece.edges().collect::<Vec<_>>());
-        let outline: Vec<Line> =
-            edges.map(|(start, end)| Line { start, end, face: None }).collect();
+        let outline: Vec<Line> = edges.map(|(start, end)| Line::between(start, end)).collect();
         let (struck, through) = moved::beams(&outline, &Frame::IDENTITY, &self.taken, &self.chart);
         through as f64 >= FEWEST && through as f64 >= GONE * (struck + through) as f64
     }

@@ -81,17 +81,13 @@ fn a_move_is_told_that_tells_two_rooms_apart() {
     let room = |x: f64| {
         let corners = [(x, 0.0), (x + 400.0, 0.0), (x + 400.0, 300.0), (x, 300.0)];
         let corners = corners.map(|(x, y)| nalgebra::Point2::new(x, y));
-        (0..4).map(move |n| Line { start: corners[n], end: corners[(n + 1) % 4], face: None })
+        (0..4).map(move |n| Line::between(corners[n], corners[(n + 1) % 4]))
     };
     let mut lines: Vec<Line> = room(0.0).chain(room(2000.0)).collect();
     // In one of them a cupboard stands behind the robot.
     let cupboard = [(0.0, 90.0), (60.0, 90.0), (60.0, 210.0), (0.0, 210.0)];
     let cupboard = cupboard.map(|(x, y)| nalgebra::Point2::new(x, y));
-    lines.extend((0..4).map(|n| Line {
-        start: cupboard[n],
-        end: cupboard[(n + 1) % 4],
-        face: None,
-    }));
+    lines.extend((0..4).map(|n| Line::between(cupboard[n], cupboard[(n + 1) % 4])));
     let chart = Chart::new(lines);
     let localiser = Localiser::new(&chart, Options::default());
     let fit = |x: f64| {

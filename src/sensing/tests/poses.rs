@@ -17,7 +17,7 @@ fn sensor() -> Sensor {
 fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Line> {
     let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
     let corners = corners.map(|(x, y)| Point2::new(x, y));
-    (0..4).map(|n| Line { start: corners[n], end: corners[(n + 1) % 4], face: None }).collect()
+    (0..4).map(|n| Line::between(corners[n], corners[(n + 1) % 4])).collect()
 }
 
 /// A hall with boxes of all sizes in it.
@@ -131,11 +131,8 @@ fn a_building_that_repeats_itself_is_told_as_several_places() {
 fn along_a_corridor_without_an_end_in_sight_no_place_is_told() {
     let mut random = fastrand::Rng::with_seed(3);
     let walls = [(0.0, 0.0), (0.0, 200.0)];
-    let line = |&(x, y): &(f64, f64)| Line {
-        start: Point2::new(x, y),
-        end: Point2::new(x + 20_000.0, y),
-        face: None,
-    };
+    let line =
+        |&(x, y): &(f64, f64)| Line::between(Point2::new(x, y), Point2::new(x + 20_000.0, y));
     let chart = Chart::new(walls.iter().map(line).collect());
     let localiser = Localiser::new(&chart, Options::default());
     for x in [3000.0, 9000.0, 15_000.0] {
@@ -226,7 +223,7 @@ fn screens_that_are_gone_make_no_other_room_the_only_one() {
     let truth = Chart::new(seen.clone());
     for x in [250.0, 350.0] {
         let ends = [20.0, 380.0].map(|y| Point2::new(x, y));
-        seen.push(Line { start: ends[0], end: ends[1], face: None });
+        seen.push(Line::between(ends[0], ends[1]));
     }
     let chart = Chart::new(seen);
     let localiser = Localiser::new(&chart, Options::default());

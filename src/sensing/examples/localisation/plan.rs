@@ -144,7 +144,7 @@ impl Plan {
         let contours = picture.contours(230).concat();
         let rows = height as f64 - 1.0;
         let at = |p: nalgebra::Vector2<f64>| laid(Point2::new(p.x, rows - p.y));
-        let line = contours.iter().map(|s| Line { start: at(s.start), end: at(s.end), face: None });
+        let line = contours.iter().map(|s| Line::between(at(s.start), at(s.end)));
         let chart = Chart::new(line.collect()).erring(ENDS);
         let (width, height, grey) = pixels(&plans.join(format!("{name}_scan_gt_segmentation.png")));
         Self { chart, rooms: Rooms::of(width, height, &grey, laid) }
