@@ -26,6 +26,7 @@ mod along;
 mod chart;
 mod differences;
 mod discern;
+mod frontier;
 mod levels;
 mod locate;
 mod operative;

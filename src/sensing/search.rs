@@ -9,9 +9,13 @@
 //! stands side by side, so that they are summed together in registers. Since the cells of level `k` are `2^k` apart and the rasters finer than
 //! that, each raster is kept as several, by the phase in which a return meets it.
 
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
 
 use super::chart::{Chart, ENDS};
+use super::frontier::{Next, Open, Place, Strip, side_by_side};
 use super::levels::{
     BORDER, FINE, FULL, KINDS, LEVELS, Level, Offsets, STRIP, course, drawn, is_long, is_of, kind,
     off, wholes, widened,
@@ -32,6 +36,13 @@ const REACHES: [usize; 2] = [2, 4];
 const HALF: u32 = (1 << (STRIP / 2)) - 1;
 /// Strips that are looked at before the search gives up.
 const MOST_STRIPS: usize = 1_000_000;
+/// Strips that are opened together, and that a thread takes at once.
+const BATCH: usize = 2048;
+const SHARE: usize = 64;
+/// So many are worth a thread's beginning.
+const WORTH: usize = 512;
+/// More threads gain little.
+const MOST_THREADS: usize = 4;
 /// A long line that is seen turns from its course by what its ends err and so many degrees.
 const STEADY: f64 = 1.0;
 
@@ -100,6 +111,15 @@ pub(crate) struct Pyramid {
     off: Vec<f64>,
     /// The coarsest level once more, of each course for each of [`REACHES`].
     swept: Level,
+    threads: usize,
+}
+
+/// Turns that are looked at together: those of them that can come to what is needed, where the marks lie at their middle, and what
+/// these are to come to.
+struct Sweep {
+    turns: Vec<usize>,
+    marks: Offsets,
+    rough: u16,
 }
 
 /// What a search went through.
@@ -116,8 +136,8 @@ struct Turned<'p> {
     /// In an order that jumps about.
     marks: Vec<Mark>,
     /// In cells, and which raster is theirs.
-    cells: Vec<Option<Vec<(i32, i32, usize)>>>,
-    known: Vec<Option<Offsets>>,
+    cells: Vec<OnceLock<Vec<(i32, i32, usize)>>>,
+    known: Vec<OnceLock<Offsets>>,
 }
 
 impl<'p> Turned<'p> {
@@ -127,14 +147,15 @@ impl<'p> Turned<'p> {
         let mut marks: Vec<Mark> = (0..count).map(|k| marks[k * stride % count]).collect();
         // Those of a long line first, then those of a course: fewer lines are of these.
         marks.sort_by_key(|mark| mark.course.map_or(2, |seen| u8::from(!is_long(seen.length))));
-        let (cells, known) = (vec![None; TURNS], vec![None; LEVELS * TURNS]);
+        let cells = std::iter::repeat_with(OnceLock::new).take(TURNS).collect();
+        let known = std::iter::repeat_with(OnceLock::new).take(LEVELS * TURNS).collect();
         Self { pyramid, marks, cells, known }
     }
 
-    fn at(&mut self, level: usize, turn: usize) -> &Offsets {
+    fn at(&self, level: usize, turn: usize) -> &Offsets {
         let Self { pyramid, marks, cells, known } = self;
-        known[level * TURNS + turn].get_or_insert_with(|| {
-            let cells = cells[turn].get_or_insert_with(|| pyramid.turned(marks, turn, 1));
+        known[level * TURNS + turn].get_or_init(|| {
+            let cells = cells[turn].get_or_init(|| pyramid.turned(marks, turn, 1));
             pyramid.levels[level].offsets(cells.iter().copied())
         })
     }
@@ -186,7 +207,8 @@ impl Pyramid {
         let off = off(chart);
         let turn = |turn| UnitComplex::new(degrees(turn).to_radians());
         let turns = (0..TURNS).map(turn).collect();
-        Self { cell, low, width, height, turns, levels, kinds, off, swept }
+        let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
+        Self { cell, low, width, height, turns, levels, kinds, off, swept, threads }
     }
 
     /// Where marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
@@ -246,12 +268,12 @@ impl Pyramid {
         let whole = f64::from(FULL) * marks.len() as f64;
         let least = (least * whole).ceil() as u16;
         let asked = Asked { least, margin, whole };
-        let mut turned = Turned::of(self, marks);
+        let turned = Turned::of(self, marks);
         let mut left = MOST_STRIPS;
         let mut guesses = GUESSES.iter().map(|share| (share * whole) as u16);
         let mut guess = guesses.next().unwrap_or(least).max(least);
         loop {
-            let (best, found) = self.from(&mut turned, &asked, guess, (apart, most), &mut left);
+            let (best, found) = self.from(&turned, &asked, guess, (apart, most), &mut left);
             let needed = asked.needed(best);
             if !found.is_all || guess <= needed {
                 return found;
@@ -264,7 +286,7 @@ impl Pyramid {
     /// for.
     fn from(
         &self,
-        turned: &mut Turned<'_>,
+        turned: &Turned<'_>,
         asked: &Asked<impl Fn(f64) -> f64>,
         least: u16,
         (apart, most): (f64, usize),
@@ -273,15 +295,19 @@ impl Pyramid {
         let mut open = self.coarsest(turned, least);
         let mut found = Found { places: Vec::new(), is_all: true };
         let (mut best, mut needed) = (0, least);
-        while let Some(bound) = open.most().filter(|bound| *bound >= needed) {
-            // What lies in strips that promise so much comes to no more: then its poses are all there.
-            while let Some(strip) = open.by_bound[usize::from(bound)].strips.pop() {
-                if self.below(&mut open, turned, strip, needed, left).is_none() {
-                    found.is_all = false;
-                    return (best, found);
+        loop {
+            // What lies in strips that promise as much as poses come to comes to no more: once they are opened these are all.
+            let (bound, mut poses) = match open.next(needed, BATCH) {
+                Next::Nothing => return (best, found),
+                Next::Poses(bound, poses) => (bound, poses),
+                Next::Strips(strips) => {
+                    if !self.opened(&mut open, turned, &strips, needed, left) {
+                        found.is_all = false;
+                        return (best, found);
+                    }
+                    continue;
                 }
-            }
-            let mut poses = std::mem::take(&mut open.by_bound[usize::from(bound)].poses);
+            };
             poses.sort_unstable();
             for place in poses {
                 let pose = self.pose(place);
@@ -300,78 +326,102 @@ impl Pyramid {
                 }
             }
         }
-        (best, found)
     }
 
     /// The coarsest strips of which at least one cell comes to `needed`.
-    fn coarsest(&self, turned: &mut Turned<'_>, needed: u16) -> Open {
-        let mut open = Open::default();
+    fn coarsest(&self, turned: &Turned<'_>, needed: u16) -> Open {
         let top = LEVELS - 1;
-        // Of so many strips that were looked at for several turns together so many had to be looked at for each.
-        let mut swept = (0, 0);
-        // That spares more than it costs.
-        let is_worth = |(looked, passed): (usize, usize), turns: usize| {
-            turns > 1 && (looked < 64 || (looked - passed) * turns > looked)
-        };
-        for first in (0..TURNS).step_by(SWEEP) {
+        let comes_to = |marks: usize| u16::from(FULL) * marks as u16;
+        let sweep = |first: usize| {
             let middle = self.turned(&turned.marks, first + SWEEP / 2, SWEEP);
-            if u16::from(FULL) * (middle.len() as u16) < needed {
-                continue;
+            if comes_to(middle.len()) < needed {
+                return None;
             }
-            let turns: Vec<usize> = (first..first + SWEEP)
-                .filter(|turn| u16::from(FULL) * turned.at(top, *turn).len() as u16 >= needed)
-                .collect();
             let (marks, beyond) = self.swept(&middle);
-            let rough = needed.saturating_sub(u16::from(FULL) * beyond as u16);
-            for row in (0..self.height.div_ceil(1 << top)).step_by(2) {
-                for column in (0..self.width.div_ceil(1 << top)).step_by(STRIP) {
-                    if is_worth(swept, turns.len()) {
-                        let sums = self.swept.sums(&marks, column as i32, row as i32, rough);
-                        swept.0 += 1;
-                        if sums.is_none() {
+            let turns = first..first + SWEEP;
+            let turns = turns.filter(|turn| comes_to(turned.at(top, *turn).len()) >= needed);
+            let rough = needed.saturating_sub(comes_to(beyond));
+            Some(Sweep { turns: turns.collect(), marks, rough })
+        };
+        let sweeps: Vec<Sweep> = (0..TURNS).step_by(SWEEP).filter_map(sweep).collect();
+        let rows = self.height.div_ceil(1 << top).div_ceil(2);
+        let columns = self.width.div_ceil(1 << top);
+        let next = AtomicUsize::new(0);
+        let work = |open: &mut Open| {
+            // Of so many strips that were looked at for several turns together so many had to be looked at for each.
+            let (mut looked, mut passed) = (0, 0);
+            loop {
+                let job = next.fetch_add(1, Ordering::Relaxed);
+                let Some(Sweep { turns, marks, rough }) = sweeps.get(job / rows) else { break };
+                let row = 2 * (job % rows);
+                for column in (0..columns).step_by(STRIP) {
+                    // While that spares more than it costs.
+                    if turns.len() > 1 && (looked < 64 || (looked - passed) * turns.len() > looked)
+                    {
+                        looked += 1;
+                        if self.swept.sums(marks, column as i32, row as i32, *rough).is_none() {
                             continue;
                         }
-                        swept.1 += 1;
+                        passed += 1;
                     }
-                    for &turn in &turns {
-                        let marks = turned.at(top, turn);
-                        self.open(&mut open, top, marks, (turn, column, row), needed);
+                    for &turn in turns {
+                        self.open(open, top, turned.at(top, turn), (turn, column, row), needed);
                     }
                 }
             }
-        }
+        };
+        let mut open = Open::default();
+        let strips = sweeps.len() * rows * columns.div_ceil(STRIP);
+        side_by_side(self.threads_for(strips), &work, &mut open);
         open
     }
 
-    /// Adds what lies in a strip, on the level below it.
-    fn below(
+    /// Adds what lies in strips, on the levels below them; false where there is too much of it.
+    fn opened(
         &self,
         open: &mut Open,
-        turned: &mut Turned<'_>,
-        Strip { level, place: Place { turn, column, row }, passed }: Strip,
+        turned: &Turned<'_>,
+        strips: &[Strip],
         needed: u16,
         left: &mut usize,
-    ) -> Option<()> {
-        let level = usize::from(level) - 1;
-        let marks = turned.at(level, usize::from(turn));
-        for side in 0..2 {
+    ) -> bool {
+        let halves = |strip: &Strip| {
+            let Strip { level, place, passed } = *strip;
+            let level = usize::from(level) - 1;
             // Half of its cells make two strips of the level below, one above the other.
-            if (passed >> (side * STRIP / 2)) & HALF == 0 {
-                continue;
+            (0..2).filter(move |side| (passed >> (side * STRIP / 2)) & HALF != 0).filter_map(
+                move |side| {
+                    let column = 2 * place.column as usize + side * STRIP;
+                    let place = (usize::from(place.turn), column, 2 * place.row as usize);
+                    (column < self.width.div_ceil(1 << level)).then_some((level, place))
+                },
+            )
+        };
+        let count: usize = strips.iter().map(|strip| 2 * halves(strip).count()).sum();
+        let Some(rest) = left.checked_sub(count) else { return false };
+        *left = rest;
+        let next = AtomicUsize::new(0);
+        let work = |open: &mut Open| {
+            loop {
+                let first = next.fetch_add(SHARE, Ordering::Relaxed);
+                let Some(share) = strips.get(first..) else { break };
+                for strip in share.iter().take(SHARE) {
+                    for (level, place) in halves(strip) {
+                        self.open(open, level, turned.at(level, place.0), place, needed);
+                    }
+                }
+                if share.len() <= SHARE {
+                    break;
+                }
             }
-            let column = 2 * column as usize + side * STRIP;
-            if column < self.width.div_ceil(1 << level) {
-                *left = left.checked_sub(2)?;
-                self.open(
-                    open,
-                    level,
-                    marks,
-                    (usize::from(turn), column, 2 * row as usize),
-                    needed,
-                );
-            }
-        }
-        Some(())
+        };
+        side_by_side(self.threads_for(count), &work, open);
+        true
+    }
+
+    /// Into how many threads it pays to share so many strips out.
+    fn threads_for(&self, strips: usize) -> usize {
+        if strips < WORTH { 1 } else { self.threads }
     }
 
     /// Adds a strip and the one above it, where at least one cell comes to `needed`; of the finest level those cells.
@@ -433,54 +483,6 @@ fn degrees(turns: usize) -> f64 {
 pub(crate) fn is_near(a: &Isometry2<f64>, b: &Isometry2<f64>, apart: f64) -> bool {
     (a.translation.vector - b.translation.vector).norm() <= apart
         && a.rotation.angle_to(&b.rotation).abs() <= 20_f64.to_radians()
-}
-
-/// A turn, and a cell of some level.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Place {
-    turn: u16,
-    column: u32,
-    row: u32,
-}
-
-/// Cells from one on, at a turn.
-#[derive(Debug, Clone, Copy)]
-struct Strip {
-    level: u8,
-    place: Place,
-    /// Which of its cells come to what is needed.
-    passed: u32,
-}
-
-/// Strips that are still to be opened, and poses, by the most that any pose in them can explain. Most end below what is needed
-/// and are never looked at again.
-#[derive(Default)]
-struct Open {
-    by_bound: Vec<Promise>,
-}
-
-#[derive(Default)]
-struct Promise {
-    strips: Vec<Strip>,
-    poses: Vec<Place>,
-}
-
-impl Open {
-    fn at(&mut self, bound: u16) -> &mut Promise {
-        let bound = usize::from(bound);
-        if bound >= self.by_bound.len() {
-            self.by_bound.resize_with(bound + 1, Promise::default);
-        }
-        &mut self.by_bound[bound]
-    }
-
-    /// The most that any of them promises.
-    fn most(&mut self) -> Option<u16> {
-        while self.by_bound.pop_if(|last| last.strips.is_empty() && last.poses.is_empty()).is_some()
-        {
-        }
-        self.by_bound.len().checked_sub(1).map(|bound| bound as u16)
-    }
 }
 
 #[cfg(test)]
