@@ -22,7 +22,7 @@ const _: () = assert!(FULL as usize * PACKED < 16 && FULL as usize * GROUP < 256
 /// Courses by which lines are told apart, their fronts on the left.
 const COURSES: usize = 32;
 /// The kinds of lines: of each course all, of each course the long ones, and all.
-pub(crate) const KINDS: usize = 2 * COURSES + 1;
+const KINDS: usize = 2 * COURSES + 1;
 /// What is seen of a line by so much longer than this, in cm, is of one that is long.
 const LONG: f64 = 100.0;
 const LONGER: f64 = 20.0;
@@ -277,8 +277,32 @@ pub(crate) fn is_long(seen: f64) -> bool {
     seen > LONG + LONGER
 }
 
+/// Which of the rasters each kind has, none where it has no lines, and the lines of each raster. Where lines run one of two ways
+/// several kinds have the same ones: one raster is enough for them.
+pub(crate) fn kinds(chart: &Chart) -> (Vec<Option<usize>>, Vec<Vec<&Line>>) {
+    let wholes = wholes(chart);
+    let mut rasters: Vec<Vec<u32>> = Vec::new();
+    let raster_of = |kind: usize| {
+        let lines = chart.lines().iter().zip(&wholes).enumerate();
+        let of = lines.filter(|(_, (line, whole))| is_of(line, **whole, kind));
+        let of: Vec<u32> = of.map(|(number, _)| number as u32).collect();
+        if of.is_empty() {
+            return None;
+        }
+        let known = rasters.iter().position(|known| *known == of);
+        Some(known.unwrap_or_else(|| {
+            rasters.push(of);
+            rasters.len() - 1
+        }))
+    };
+    let kinds = (0..KINDS).map(raster_of).collect();
+    let lines =
+        |raster: &Vec<u32>| raster.iter().map(|number| &chart.lines()[*number as usize]).collect();
+    (kinds, rasters.iter().map(lines).collect())
+}
+
 /// Whether a line is of a kind, where it is `whole` cm long with what goes on from it.
-pub(crate) fn is_of(line: &Line, whole: f64, kind: usize) -> bool {
+fn is_of(line: &Line, whole: f64, kind: usize) -> bool {
     if kind == KINDS - 1 {
         return true;
     }
@@ -293,7 +317,7 @@ pub(crate) fn is_of(line: &Line, whole: f64, kind: usize) -> bool {
 
 /// How long each line is with those that go on from it, where it is not long by itself; endless where the chart's lines err:
 /// then they may be pieces of any.
-pub(crate) fn wholes(chart: &Chart) -> Vec<f64> {
+fn wholes(chart: &Chart) -> Vec<f64> {
     let lines = chart.lines();
     if chart.ends() > 0.0 {
         return vec![f64::INFINITY; lines.len()];
@@ -402,6 +426,21 @@ pub(crate) fn widened(values: &[u8], width: usize, height: usize, step: usize) -
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A row of cupboards is seen as one front; what stands about a corner or a metre on is no part of it.
+    #[test]
+    fn what_goes_on_in_line_is_long_together() {
+        let line = |a: (f64, f64), b: (f64, f64)| {
+            Line::between(Point2::new(a.0, a.1), Point2::new(b.0, b.1))
+        };
+        let row = (0..5).map(|n| f64::from(n) * 61.0).map(|x| line((x, 3.0), (x + 60.0, 3.0)));
+        let mut lines: Vec<Line> = row.collect();
+        lines.push(line((304.0, 3.0), (304.0, 63.0)));
+        lines.push(line((404.0, 3.0), (464.0, 3.0)));
+        let chart = Chart::new(lines);
+        assert_eq!(wholes(&chart), [304.0, 304.0, 304.0, 304.0, 304.0, 60.0, 60.0]);
+        assert!(wholes(&chart.erring(ENDS)).iter().all(|whole| whole.is_infinite()));
+    }
 
     /// Each cell by its nearest line, and by the bell itself.
     #[test]

@@ -17,13 +17,15 @@ use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
 use super::chart::{Chart, ENDS};
 use super::frontier::{Next, Open, Place, Strip, side_by_side};
 use super::levels::{
-    BORDER, FINE, FULL, KINDS, LEVELS, Level, Offsets, STRIP, course, drawn, is_long, is_of, kind,
-    off, wholes, widened,
+    BORDER, FINE, FULL, LEVELS, Level, Offsets, STRIP, course, drawn, is_long, kind, kinds, off,
+    widened,
 };
 
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
 const CELL: f64 = 10.0;
 const MOST_CELLS: f64 = 2e6;
+/// Cells of the rasters of all kinds together.
+const MOST_IN_ALL: f64 = 4e7;
 /// Turns, one a degree.
 const TURNS: usize = 360;
 /// What is asked for at first, as shares of all returns: what cannot come to much is told by few of them.
@@ -166,7 +168,9 @@ impl Pyramid {
         let span = chart.high - chart.low;
         let margin = 50.0;
         let area = (span.x + 2.0 * margin) * (span.y + 2.0 * margin);
-        let cell = CELL.max((area / MOST_CELLS).sqrt());
+        let (kinds, lines_of) = kinds(chart);
+        let most = (MOST_IN_ALL / lines_of.len().max(1) as f64).min(MOST_CELLS);
+        let cell = CELL.max((area / most).sqrt());
         let low = chart.low - Vector2::new(margin, margin);
         let size = ((span.add_scalar(2.0 * margin)) / cell).map(|x| x as usize + 1);
         let (width, height) = (size.x, size.y);
@@ -174,25 +178,8 @@ impl Pyramid {
         let mut levels: Vec<Level> = (0..LEVELS).map(|level| Level::new(level, whole)).collect();
         let mut swept = Level::new(LEVELS - 1, whole);
         let corner = low - Vector2::repeat(BORDER as f64 * cell);
-        // Where lines run one of two ways, several courses have the same ones: one raster is enough for them.
-        let mut drawn_of: Vec<Vec<bool>> = Vec::new();
-        let mut kinds = Vec::new();
-        let wholes = wholes(chart);
-        for kind in 0..KINDS {
-            let lines = chart.lines().iter().zip(&wholes);
-            let of: Vec<bool> = lines.map(|(line, whole)| is_of(line, *whole, kind)).collect();
-            if !of.contains(&true) {
-                kinds.push(None);
-                continue;
-            }
-            let known = drawn_of.iter().position(|known| *known == of);
-            kinds.push(Some(known.unwrap_or(drawn_of.len())));
-            if known.is_some() {
-                continue;
-            }
-            let lines =
-                chart.lines().iter().zip(&of).filter_map(|(line, is_of)| is_of.then_some(line));
-            let mut most = drawn(lines, corner, cell, whole);
+        for lines in lines_of {
+            let mut most = drawn(lines.into_iter(), corner, cell, whole);
             for (number, level) in levels.iter_mut().enumerate() {
                 if number > 0 {
                     most = widened(&most, whole.0, whole.1, 1 << (number - 1));
@@ -202,7 +189,6 @@ impl Pyramid {
             for reach in REACHES {
                 swept.add(&widened(&most, whole.0, whole.1, 2 * reach), whole);
             }
-            drawn_of.push(of);
         }
         let off = off(chart);
         let turn = |turn| UnitComplex::new(degrees(turn).to_radians());
@@ -542,7 +528,7 @@ mod tests {
                 if (end - start).perp(&(at - start.coords)) < 0.0 {
                     std::mem::swap(&mut start, &mut end);
                 }
-                let front = if number % 4 == 0 { Front::Both } else { Front::Left };
+                let front = if number.is_multiple_of(4) { Front::Both } else { Front::Left };
                 Line { front, ..Line::between(start, end) }
             };
             let lines: Vec<Line> = (0..count).map(line).collect();

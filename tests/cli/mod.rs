@@ -5,6 +5,7 @@ mod barred;
 mod differences;
 mod drives;
 mod faults;
+mod furnished;
 mod language_server;
 mod languages;
 mod lengths;
