@@ -20,6 +20,7 @@
 mod assemble;
 mod blame;
 mod clauses;
+mod correction;
 mod ellipsis;
 mod gathered;
 mod going;
@@ -37,6 +38,7 @@ mod verbs;
 mod vocabulary;
 mod waiting;
 
+pub(crate) use correction::{Correction, correction, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_of_another, says_whither};
 pub use hints::{in_time, is_command, is_order, preamble, without_clock};
@@ -44,7 +46,7 @@ pub use misheard::Misheard;
 pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
 pub(crate) use verbs::{
-    Sort, clauses, forbids, is_known, link_at, link_before, small_words, without_verbs,
+    Sort, clauses, forbids, is_known, link_at, link_before, small_words, verbs_of, without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
 pub use waiting::{Waiting, waiting};

@@ -202,6 +202,11 @@ pub(crate) fn clauses(text: &str) -> Vec<(usize, Sort)> {
     found(text).into_iter().map(|f| (f.at.start, Sort::of(f.verb))).collect()
 }
 
+/// Where the verbs of a text stand that begin its clauses.
+pub(crate) fn verbs_of(text: &str) -> Vec<Range<usize>> {
+    found(text).into_iter().map(|f| f.at).collect()
+}
+
 /// Whether a text has a verb of command anywhere.
 #[must_use]
 pub fn has_verb(text: &str) -> bool {

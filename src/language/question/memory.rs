@@ -122,6 +122,12 @@ impl Memory {
         self.waiting.is_some() || self.pending.is_some()
     }
 
+    /// The things one of which a command is to be done to, as soon as the person says which.
+    #[must_use]
+    pub fn asked_about(&self) -> &[Thing] {
+        self.waiting.as_ref().map_or(&[], |waiting| &waiting.candidates)
+    }
+
     /// Drops what waits for a reply.
     pub fn forget_reply(&mut self) {
         self.waiting = None;
@@ -425,6 +431,10 @@ impl Memory {
         self.so = None;
         // "By the book, do you mean …? – Is it open?" means one of those.
         if let Doubt::Ambiguous { candidates, .. } = doubt {
+            // A reply is to what was asked back last.
+            if self.waiting.take().is_some() {
+                self.ordered = None;
+            }
             self.exchanges.insert(0, Exchange::list(candidates));
             self.exchanges.truncate(RECENT);
             return;

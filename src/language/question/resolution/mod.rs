@@ -9,12 +9,15 @@
 
 mod choice;
 mod object;
+mod open;
 mod place;
 mod reply;
 mod terse;
 mod words;
 
 use std::ops::Range;
+
+pub use open::Corrected;
 
 use object::More;
 use place::{Spot, case_of};
@@ -66,6 +69,21 @@ impl Asker<'_> {
     /// # Errors
     /// A description that several things fit, or none; then the memory waits for an answer.
     pub fn resolve(
+        &self,
+        text: &str,
+        memory: &mut Memory,
+        strict: &Strict<'_>,
+    ) -> Result<Resolved, Misread> {
+        let resolved = self.resolved(text, memory, strict);
+        if resolved.is_err() {
+            let waiting = memory.waiting.as_ref().map(|waiting| waiting.text.clone());
+            let text = waiting.unwrap_or_else(|| self.plain(&command::gathered(text)));
+            self.leave_open(&text, memory);
+        }
+        resolved
+    }
+
+    fn resolved(
         &self,
         text: &str,
         memory: &mut Memory,
