@@ -3,6 +3,7 @@
 mod accounted;
 mod agreement;
 mod architecture;
+mod asked_back;
 mod assembly;
 mod bounded;
 mod broken_scenarios;

@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Corrected, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said, Senses,
-    Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
+    Answer, Asker, Corrected, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said,
+    Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};

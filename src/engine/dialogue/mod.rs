@@ -34,8 +34,8 @@ use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
-    Aside, Conditional, Corrected, Memory, Thing, Unanswered, aside, asks_whether, begs, conditional, hinged,
-    sentences, unaddressed,
+    Aside, Conditional, Corrected, Memory, Thing, Unanswered, aside, asks_whether, begs,
+    conditional, hinged, sentences, unaddressed,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;

@@ -27,9 +27,10 @@ pub(crate) fn correction(text: &str) -> Option<Correction<'_>> {
         let (is_sure, behind) = takes_back(&said, at)?;
         let behind = &text[said.words.get(behind).map_or(text.len(), |word| word.start)..];
         // A run of such words is one correction, from its first.
-        let goes_on = (1..at).rev().find(|&n| said.parted(n)).is_some_and(|n| {
-            takes_back(&said, n).is_some_and(|(_, end)| end >= at)
-        });
+        let goes_on = (1..at)
+            .rev()
+            .find(|&n| said.parted(n))
+            .is_some_and(|n| takes_back(&said, n).is_some_and(|(_, end)| end >= at));
         let orders = verbs::has_verb(before);
         (orders && !goes_on).then_some(Correction { before, behind, is_sure })
     })
@@ -56,8 +57,10 @@ fn takes_back(said: &Said, at: usize) -> Option<(bool, usize)> {
     }
     // "Tea, no sugar" takes nothing back.
     let is_link = || matches!(said.meaning(end), Some((_, Meaning::Link(_) | Meaning::Not)));
-    (said.parted(end) || is_link() || !said.is(end - 1, &["no", "нет", "sorry", "извини", "прости"]))
-        .then_some((is_sure, end))
+    (said.parted(end)
+        || is_link()
+        || !said.is(end - 1, &["no", "нет", "sorry", "извини", "прости"]))
+    .then_some((is_sure, end))
 }
 
 /// Whether the rest of a text only says that nothing is to be done: "never mind", «нет, не надо», "no, wait".
@@ -102,7 +105,10 @@ mod tests {
     #[test]
     fn what_is_taken_back_is_parted_from_what_is_put_instead() {
         for (text, expected) in [
-            ("Bring the red cup. No, the white one.", Some(("Bring the red cup", "the white one."))),
+            (
+                "Bring the red cup. No, the white one.",
+                Some(("Bring the red cup", "the white one.")),
+            ),
             ("Go to the hall, no, wait, to the lab", Some(("Go to the hall", "to the lab"))),
             ("Принеси чашку, не надо", Some(("Принеси чашку", ""))),
             ("Bring the cup. Cancel that.", Some(("Bring the cup", ""))),

@@ -352,8 +352,7 @@ pub(super) const CORRECTIONS: &str = "no|no no|no sorry|sorry|oh no|oops|actuall
     нет|нет нет|ой|ой нет|вернее|точнее|лучше|а лучше|хотя нет|хотя лучше|то есть|извини|извините|прости|простите|или нет|или лучше|я имел в виду|я имела в виду";
 
 /// What may do so, and may also be said by itself.
-pub(super) const HESITATIONS: &str =
-    "wait|hold on|oh|hm|стоп|стой|погоди|постой|подожди|ну";
+pub(super) const HESITATIONS: &str = "wait|hold on|oh|hm|стоп|стой|погоди|постой|подожди|ну";
 
 /// Past forms, which order behind «чтобы» and «бы» alone: «хочу, чтобы ты закрыл дверь». «Ты закрыл дверь?» orders nothing.
 const WISHED: &[(Verb, &str)] = &[

@@ -160,9 +160,11 @@ impl Resolver<'_, '_> {
                 object = own.map(|(_, phrase)| Phrase::clone(phrase));
             }
             let places = own.iter().filter(|spot| spot.rel != Rel::Through);
-            told.extend(places.map(|spot| {
-                spot.at.start..spot.attached.last().map_or(spot.at.end, |at| at.end)
-            }));
+            told.extend(
+                places.map(|spot| {
+                    spot.at.start..spot.attached.last().map_or(spot.at.end, |at| at.end)
+                }),
+            );
         }
         (object, told, goal)
     }

@@ -44,7 +44,8 @@ impl Ordered {
         let own = clauses.iter().rev().find(|(start, _)| *start <= object.start);
         let sort = own.map_or(Sort::Other, |(_, sort)| *sort);
         let named = knowledge.base(&phrase.noun.head);
-        let bare = phrase.pronoun.is_none() && phrase.person.is_none() && !phrase.noun.head.anything;
+        let bare =
+            phrase.pronoun.is_none() && phrase.person.is_none() && !phrase.noun.head.anything;
         bare && !named.is_empty() && !named.iter().any(|thing| knowledge.can(sort, *thing))
     }
 
