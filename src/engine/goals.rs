@@ -139,7 +139,17 @@ impl State {
                 if near {
                     belief.beside.insert((name(what.id), name(to.anchor)));
                 }
-                vec![self.delivered(what.id, to, relations)?]
+                let delivered = self.delivered(what.id, to, relations)?;
+                // What lies on top of it is taken down before it is put in: to the rules, "on" is both.
+                let lifted = match (to.relation, what.id, to.anchor) {
+                    (Relation::In, Entity::Replica(thing), Entity::Replica(holder)) => {
+                        relations.support_of(thing) == Some(holder)
+                            && !relations.is_inside(thing, holder)
+                    }
+                    _ => false,
+                };
+                let held = lifted.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);
+                held.into_iter().chain([delivered]).collect()
             }
             Command::SetDown { what, within } => {
                 vec![self.set_down(what.id, *within, relations, belief)?]
