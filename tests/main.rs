@@ -1,6 +1,7 @@
 //! Integration tests: one binary, one file a capability.
 
 mod accounted;
+mod hdtmp;
 mod agreement;
 mod architecture;
 mod asked_back;

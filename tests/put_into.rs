@@ -30,7 +30,7 @@ fn what_is_put_into_a_thing_lies_in_it() {
         let mut kinds = BTreeSet::new();
         for holder in world.replicas.values().filter(|r| r.id != thing.id) {
             let kind = world.objects[&holder.object].object_type;
-            if !long() && (!kinds.insert(kind) || kinds.len() % 3 > 0) {
+            if !long() && (!kinds.insert(kind) || kinds.len() % 5 > 0) {
                 continue;
             }
             let russian = |id| {
