@@ -1,7 +1,6 @@
 //! Integration tests: one binary, one file a capability.
 
 mod accounted;
-mod hdtmp;
 mod agreement;
 mod architecture;
 mod asked_back;
@@ -39,6 +38,7 @@ mod furniture;
 mod generated_worlds;
 mod going_on;
 mod guides;
+mod hdtmp;
 mod hostile;
 mod ifc;
 mod imports;

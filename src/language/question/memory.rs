@@ -95,6 +95,8 @@ pub(super) struct Ordered {
     pub(super) told: Vec<Range<usize>>,
     /// Bytes of whither, with the preposition.
     pub(super) goal: Option<Range<usize>>,
+    /// Whether the things are those that were meant, and not all that the words may mean.
+    pub(super) is_resolved: bool,
     pub(super) language: Language,
 }
 

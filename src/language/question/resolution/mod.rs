@@ -166,6 +166,7 @@ impl Asker<'_> {
                         .map(|e| e.at.clone())
                         .collect(),
                     goal,
+                    is_resolved: true,
                     language,
                 });
                 memory.ordered = amendable.or(memory.ordered.take());
@@ -466,6 +467,9 @@ impl Resolver<'_, '_> {
             self.face(spot, stands, edits)?;
         }
         let there = self.area_of_there(clause, told);
+        if let (Some(_), Some(words)) = (there, self.from_there(clause)) {
+            edits.push(Edit::deletion(&self.bytes(&words)));
+        }
         // "Put the book there": not to the book.
         let spoken_of = told.place;
         let mut until_word = 0;
@@ -644,20 +648,6 @@ impl Resolver<'_, '_> {
         // «Поставь чашку на стол и закрой его»
         let other = other.or_else(|| named().find(|t| agrees(t)).filter(|_| !agrees(last)));
         other.filter(|other| *other != last && !fits(&last)).copied()
-    }
-
-    /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
-    fn area_of_there(&self, clause: &Clause<'_>, told: &Told) -> Option<AreaId> {
-        let says = |(_, p): &(usize, &Phrase)| matches!(p.person, Some(Mark::There));
-        // «Возьми там тарелку», "bring the plate there"
-        let tells_where = |phrase: &Phrase| {
-            let key = self.sentence.keys[phrase.words.start].as_str();
-            key == "оттуда" || (key == "там" && clause.sort == Sort::Carry)
-        };
-        let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
-            || clause.objects.iter().any(|(_, p)| p.person.is_some() && tells_where(p));
-        let is_said = clause.objects.iter().any(says);
-        told.place.filter(|_| is_said && is_where).and_then(|t| self.knowledge.area_of(t))
     }
 
     /// «туда»: to what was spoken of.

@@ -44,6 +44,7 @@ impl Asker<'_> {
             object,
             told,
             goal,
+            is_resolved: false,
             language: sentence.language,
         })
     }

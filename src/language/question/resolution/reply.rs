@@ -14,7 +14,7 @@ use crate::question::mark::Mark;
 use crate::question::memory::{Ordered, Waiting};
 use crate::question::query::{Best, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Aside, Asker, Memory, aside, vocabulary};
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::words::{Case, word_keys, word_ranges};
 
 impl Ordered {
@@ -23,6 +23,25 @@ impl Ordered {
         let mut text = self.text.clone();
         for told in self.told.iter().rev().filter(|told| told.start >= from) {
             text.replace_range(told.clone(), "");
+        }
+        text
+    }
+
+    /// The command with some of its parts in other words, and nothing that told where its things were.
+    pub(super) fn retold(&self, parts: &[(&Range<usize>, &str)]) -> String {
+        let free = |told: &&Range<usize>| {
+            parts.iter().all(|(at, _)| told.end <= at.start || told.start >= at.end)
+        };
+        let told = self.told.iter().filter(free).map(|told| (told, ""));
+        let mut edits: Vec<(&Range<usize>, &str)> = parts.iter().copied().chain(told).collect();
+        edits.order_by_key(|(at, _)| std::cmp::Reverse(at.start));
+        let mut text = self.text.clone();
+        let mut until = text.len();
+        for (at, said) in edits {
+            if at.end <= until {
+                until = at.start;
+                text.replace_range(at.clone(), said);
+            }
         }
         text
     }

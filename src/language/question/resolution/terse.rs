@@ -288,6 +288,14 @@ impl Asker<'_> {
             }
             _ => return None,
         };
+        // What was carried elsewhere in vain is what it was, wherever it is now.
+        if let (None, Some((at, things)), Some(goal)) = (&said, &ordered.object, &ordered.goal)
+            && ordered.is_resolved
+            && !whither.is_empty()
+        {
+            let names = self.knowledge(ordered.language, memory).listed(things, Case::Accusative);
+            return Some(ordered.retold(&[(at, &names), (goal, whither)]));
+        }
         let mut whole = ordered.text.clone();
         // From the end, so that the places before stay where they are.
         match (&ordered.goal, whither.is_empty()) {
