@@ -343,12 +343,14 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// What the place that says whither means, by name; places in which that one is go with it.
+    /// What the place that says whither means, by name; places in which that one is go with it. `room`, where the sentence
+    /// has sent what goes there.
     fn whither<'i>(
         &self,
         spot: &Spot<'i>,
         others: &mut Vec<&Spot<'i>>,
         sort: Sort,
+        room: Option<AreaId>,
         edits: &mut Vec<Edit>,
     ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
         let mut within = spot.within.clone();
@@ -372,7 +374,10 @@ impl Resolver<'_, '_> {
         if spot.rel == Rel::Between {
             return self.between(spot, &within, edits);
         }
-        let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
+        // «Отнеси кружку на кухню и поставь на стол»: on the one that is there.
+        let there = room.and_then(|room| self.only_one_in(room, &spot.phrase.noun, &within));
+        let thing = there.map_or_else(|| self.place(spot, &within), |there| Ok(Some(there)))?;
+        let Some(thing) = thing else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
         let name = self.knowledge.form(self.told_by(thing), case_of(spot.rel, true));
         let at = self.bytes(&spot.phrase.words);
@@ -459,7 +464,10 @@ impl Resolver<'_, '_> {
         let goal = self.destination(sort, &own, !objects.is_empty());
         let goal = goal.filter(|goal| !self.tells_of_fixed(sort, own[*goal], objects));
         let whither = match goal {
-            Some(goal) => self.whither(own.remove(goal), &mut own, sort, edits)?,
+            Some(goal) => {
+                let room = told.carried_to.or(told.gone_to);
+                self.whither(own.remove(goal), &mut own, sort, room, edits)?
+            }
             None => None,
         };
         let stands = whither.and_then(|thing| self.knowledge.area_of(thing)).or(told.gone_to);
@@ -590,6 +598,10 @@ impl Resolver<'_, '_> {
             self.left_standing(&own, edits);
         }
         told.place = whither.or(told.place);
+        if matches!(sort, Sort::Carry | Sort::Put) {
+            told.carried_to =
+                whither.and_then(|place| self.knowledge.area_of(place)).or(told.carried_to);
+        }
         if sort == Sort::Go {
             told.gone_to = whither.and_then(Thing::area).or(told.gone_to);
         }
@@ -675,4 +687,6 @@ struct Told {
     place: Option<Thing>,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,
+    /// The room in which what was carried is then.
+    carried_to: Option<AreaId>,
 }
