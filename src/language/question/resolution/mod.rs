@@ -13,6 +13,7 @@ mod open;
 mod place;
 mod reply;
 mod terse;
+mod used;
 mod words;
 
 use std::ops::Range;
@@ -21,18 +22,18 @@ pub use open::Corrected;
 
 use object::More;
 use place::{Spot, case_of};
+use used::Used;
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
 use super::memory::{Exchange, Ordered, Waiting};
-use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
-use super::uses;
+use super::query::{Head, Rel, Restriction, Thing};
 use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::units::{AreaId, InOrder as _};
-use crate::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
+use crate::words::{Case, NounPhrase, enumerate, word_keys, word_ranges};
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
 pub type Strict<'a> = dyn Fn(&str) -> Option<Entity> + 'a;
@@ -125,7 +126,7 @@ impl Asker<'_> {
         };
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
-        let text = self.with_activity(text, language).map_err(misread)?;
+        let Used { text, at: used, heads } = self.with_use(text, language).map_err(misread)?;
         let numbers = command::lost(&said, &word_keys(&text)).into_iter();
         if let Some(number) = numbers.into_iter().find(|key| key.chars().all(char::is_numeric)) {
             return Err(misread(Doubt::not_understood(&number)));
@@ -140,8 +141,21 @@ impl Asker<'_> {
                 Some(waiting) => waiting.candidates,
                 None => memory.last.clone(),
             };
-            let resolver = Resolver { knowledge: &knowledge, sentence: &sentence, strict, spoken };
-            resolver.resolve(&text)
+            let mut resolver =
+                Resolver { knowledge: &knowledge, sentence: &sentence, strict, spoken, used: None };
+            // The best sort of what serves, of which there is one where the order says.
+            let mut of_use = heads.into_iter().map(|head| {
+                resolver.used = Some((used.clone(), head));
+                resolver.resolve(&text)
+            });
+            match of_use.next() {
+                Some(Err(missed)) => of_use.find(Result::is_ok).unwrap_or(Err(missed)),
+                Some(found) => found,
+                None => {
+                    drop(of_use);
+                    resolver.resolve(&text)
+                }
+            }
         };
         match resolved {
             Ok(mut edits) => {
@@ -252,40 +266,6 @@ impl Asker<'_> {
             .map(|words| sentence.said(&words).to_owned())
     }
 
-    /// «Дай что-нибудь почитать», "something to cut an apple with": with the nearest portable thing of that use.
-    fn with_activity(&self, text: String, language: Language) -> Result<String, Doubt> {
-        let (words, keys) = (word_ranges(&text), word_keys(&text));
-        let Some(wanted) = uses::wanted(&keys) else { return Ok(text) };
-        let memory = Memory::default();
-        let knowledge = self.knowledge(language, &memory);
-        // What is only looked for need not be carried.
-        let found = keys.iter().any(|key| ["find", "найди", "найти", "поищи"].contains(&&**key));
-        let portable =
-            |t: &Thing| found || t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
-        let of_sort = |sort: &u16| {
-            let kinds = self.mind.lexicon.kinds_of_sort(*sort);
-            let noun = Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() };
-            let mut things = knowledge.base(&noun.head);
-            things.retain(portable);
-            (noun, things)
-        };
-        let all: Vec<(Noun, Vec<Thing>)> = wanted.sorts.iter().map(of_sort).collect();
-        let Some((_, carried)) = all.iter().find(|(_, things)| !things.is_empty()) else {
-            let Some((noun, _)) = all.into_iter().next() else { return Ok(text) };
-            return Err(Doubt::NoneSuch { noun: Box::new(noun) });
-        };
-        let nearest = Noun {
-            head: Head { things: Some(carried.clone()), ..Head::default() },
-            best: Some(Best { extreme: Extreme::Nearest, anchor: None }),
-            ..Noun::default()
-        };
-        let Some(thing) = knowledge.find(&nearest, true)?.first().copied() else { return Ok(text) };
-        let mut text = text;
-        let name = knowledge.form(thing, Case::Accusative);
-        text.replace_range(words[wanted.words.start].start..words[wanted.words.end - 1].end, &name);
-        Ok(text)
-    }
-
     /// «Принеси ещё одну»: with the noun of what was spoken of last.
     fn with_kind(&self, mut text: String, memory: &Memory) -> String {
         let (words, keys) = (word_ranges(&text), word_keys(&text));
@@ -323,12 +303,14 @@ struct Resolver<'s, 'k> {
     strict: &'s Strict<'s>,
     /// What "the red one" may be: what was asked about, or the last answer.
     spoken: Vec<Thing>,
+    /// The name at these bytes stands for any of such things.
+    used: Option<(Range<usize>, Head)>,
 }
 
 impl<'s, 'k> Resolver<'s, 'k> {
     /// One that reads a sentence, and resolves nothing.
     fn reading(knowledge: &'s Knowledge<'k>, sentence: &'s Sentence<'s>) -> Self {
-        Self { knowledge, sentence, strict: &|_| None, spoken: Vec::new() }
+        Self { knowledge, sentence, strict: &|_| None, spoken: Vec::new(), used: None }
     }
 }
 
@@ -424,7 +406,7 @@ impl Resolver<'_, '_> {
             |byte: usize| clauses.iter().rposition(|(start, _)| *start <= byte).unwrap_or(0);
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
         let items = self.numbered(self.sentence.items())?;
-        let items = self.freed(items, |byte| sort(clause_at(byte)));
+        let items = self.of_use(self.freed(items, |byte| sort(clause_at(byte))));
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
         // «Отнеси чашку на стол. Положи туда книгу»: whither the last order went.
