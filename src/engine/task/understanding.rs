@@ -152,7 +152,8 @@ impl State {
             .remembering(last)
             .knowing(meant)
             .choosing(&nearest)
-            .clearing(&fixed);
+            .clearing(&fixed)
+            .visiting(&|entity| matches!(entity, Entity::Area(_)));
         let windows: Vec<(Entity, Option<u32>)> =
             resolved.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
         let resolved = resolved.text;

@@ -252,12 +252,13 @@ pub struct Listener<'i, T> {
     meant: Vec<T>,
     any: Option<&'i Any<'i, T>>,
     fixed: Option<&'i Fixed<'i, T>>,
+    rooms: Option<&'i Fixed<'i, T>>,
 }
 
 /// Of several things any of which will do, the one to take: the nearest, say.
 pub type Any<'a, T> = dyn Fn(&[T]) -> Option<T> + 'a;
 
-/// Whether a thing cannot be carried.
+/// Whether a thing cannot be carried, say.
 pub type Fixed<'a, T> = dyn Fn(&T) -> bool + 'a;
 
 impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
@@ -266,7 +267,7 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 
     #[must_use]
     pub fn new(index: &'i FormIndex<T>) -> Self {
-        Self { index, last: Vec::new(), meant: Vec::new(), any: None, fixed: None }
+        Self { index, last: Vec::new(), meant: Vec::new(), any: None, fixed: None, rooms: None }
     }
 
     /// What "them" means when the sentence itself has named nothing; «её» is the last of it.
@@ -292,6 +293,12 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     #[must_use]
     pub fn clearing(self, fixed: &'i Fixed<'i, T>) -> Self {
         Self { fixed: Some(fixed), ..self }
+    }
+
+    /// «Обойди» is done to what is a room.
+    #[must_use]
+    pub fn visiting(self, rooms: &'i Fixed<'i, T>) -> Self {
+        Self { rooms: Some(rooms), ..self }
     }
 
     /// The commands of a sentence, in the order in which they are to be done; at least one.

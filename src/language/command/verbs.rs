@@ -26,7 +26,7 @@ pub(crate) enum Sort {
 impl Sort {
     pub(super) fn of(verb: Verb) -> Self {
         match verb {
-            Verb::GoTo | Verb::Face | Verb::Charge => Self::Go,
+            Verb::GoTo | Verb::Visit | Verb::Face | Verb::Charge => Self::Go,
             Verb::Leave => Self::Leave,
             Verb::Bring | Verb::Get | Verb::Need | Verb::Take | Verb::ThrowAway => Self::Carry,
             Verb::Put | Verb::SetDown | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => {

@@ -407,8 +407,9 @@ impl Resolver<'_, '_> {
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
         let items = self.numbered(self.sentence.items())?;
         let items = self.of_use(self.freed(items, |byte| sort(clause_at(byte))));
+        let (items, links) = self.rounds(items, |byte| sort(clause_at(byte)));
         let spots = self.spots(&items, clause_at, &sort);
-        let mut edits = Vec::new();
+        let mut edits: Vec<Edit> = links.iter().map(Edit::deletion).collect();
         // «Отнеси чашку на стол. Положи туда книгу»: whither the last order went.
         let memory = self.knowledge.memory;
         let place = memory.told_place.or_else(|| memory.last_thing());
