@@ -152,7 +152,12 @@ impl State {
                 held.into_iter().chain([delivered]).collect()
             }
             Command::SetDown { what, within } => {
-                vec![self.set_down(what.id, *within, relations, belief)?]
+                // What a person has does not lie on the floor where he stands.
+                let given = belief.handed_over.iter().any(|(r, _)| Entity::Replica(r.id) == what.id);
+                let held = given.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);
+                held.into_iter()
+                    .chain([self.set_down(what.id, *within, relations, belief)?])
+                    .collect()
             }
             Command::Take { what } => {
                 self.portable(what.id)?;

@@ -148,12 +148,15 @@ impl State {
             Entity::Replica(id) => !world.has_trait(*id, "portable"),
             _ => true,
         };
+        let own = self.held()?.map(|replica| Entity::Replica(replica.id));
+        let held = |entity: &Entity| Some(*entity) == own;
         let listener = Listener::new(self.forms()?)
             .remembering(last)
             .knowing(meant)
             .choosing(&nearest)
             .clearing(&fixed)
-            .visiting(&|entity| matches!(entity, Entity::Area(_)));
+            .visiting(&|entity| matches!(entity, Entity::Area(_)))
+            .holding(&held);
         let windows: Vec<(Entity, Option<u32>)> =
             resolved.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
         let resolved = resolved.text;
@@ -167,7 +170,7 @@ impl State {
                 {
                     return Err(Misheard::NoneSuch(Box::new(gone)).into());
                 }
-                return Err(misheard.into());
+                return Err(misheard.quoted_from(&sentence).into());
             }
         };
         self.check_places(&commands)?;
@@ -178,6 +181,15 @@ impl State {
         }
         if let Some(here) = self.place_of_robot() {
             memory.stand(Thing::Entity(here));
+            let to_person = |c: &Command<Entity>| matches!(c, Command::Bring { to: None, .. });
+            memory.speak_from(Thing::Entity(here), commands.iter().any(to_person));
+        }
+        // Who calls stands where he was when he sent the robot away.
+        if let ([Command::ComeHere], None) = (&commands[..], self.person)
+            && let Some(Thing::Entity(anchor)) = memory.place_of_speaker()
+        {
+            let to = Placement::new(Relation::At, anchor);
+            commands = vec![Command::GoTo { to, via: None, facing: None }];
         }
         if let [Command::ComeBack] = commands[..] {
             if let Some(gone) = memory.lost_place(Language::of(&resolved)) {

@@ -450,6 +450,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::Put, None) if to_me => Command::Bring { what, to: None },
             (Verb::PutBack, _) => Command::PutBack(what),
             (Verb::Clear, None) => Command::PutAway(what),
+            // «Возьми чашку. – Поставь её»: what is in the hand can be set down.
+            (Verb::Put, None) if self.listener.held.is_some_and(|held| held(&what.id)) => {
+                Command::SetDown { what, within: None }
+            }
             (Verb::Put, None) => {
                 return Err(self.incomplete(words, ("куда положить", "where to put it")));
             }

@@ -253,6 +253,7 @@ pub struct Listener<'i, T> {
     any: Option<&'i Any<'i, T>>,
     fixed: Option<&'i Fixed<'i, T>>,
     rooms: Option<&'i Fixed<'i, T>>,
+    held: Option<&'i Fixed<'i, T>>,
 }
 
 /// Of several things any of which will do, the one to take: the nearest, say.
@@ -267,7 +268,8 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 
     #[must_use]
     pub fn new(index: &'i FormIndex<T>) -> Self {
-        Self { index, last: Vec::new(), meant: Vec::new(), any: None, fixed: None, rooms: None }
+        let (last, meant) = (Vec::new(), Vec::new());
+        Self { index, last, meant, any: None, fixed: None, rooms: None, held: None }
     }
 
     /// What "them" means when the sentence itself has named nothing; «её» is the last of it.
@@ -299,6 +301,12 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     #[must_use]
     pub fn visiting(self, rooms: &'i Fixed<'i, T>) -> Self {
         Self { rooms: Some(rooms), ..self }
+    }
+
+    /// «Поставь её» sets down what is held; of anything else it is asked whither.
+    #[must_use]
+    pub fn holding(self, held: &'i Fixed<'i, T>) -> Self {
+        Self { held: Some(held), ..self }
     }
 
     /// The commands of a sentence, in the order in which they are to be done; at least one.

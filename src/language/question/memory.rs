@@ -51,6 +51,8 @@ pub struct Memory {
     pub(super) ordered: Option<Ordered>,
     /// Where the person has said to be.
     pub(super) person: Option<Entity>,
+    /// Where the robot was when it was first told something, or was last told to bring something: with the person.
+    pub(super) called_from: Option<Thing>,
     /// Where the robot was when it was last told something.
     pub(super) stands: Option<Thing>,
     /// Where the robot was before it was last sent away.
@@ -156,6 +158,19 @@ impl Memory {
             }
             _ => {}
         }
+    }
+
+    /// Notes where the robot is as it is told something, and whether it is to bring something thither.
+    pub fn speak_from(&mut self, place: Thing, brings: bool) {
+        if brings || self.called_from.is_none() {
+            self.called_from = Some(place);
+        }
+    }
+
+    /// Where the person is who says "here", as far as that is known.
+    #[must_use]
+    pub fn place_of_speaker(&self) -> Option<Thing> {
+        self.person.map(Thing::Entity).or(self.called_from)
     }
 
     /// Whether what was asked last is so; none where it was not asked whether.
