@@ -28,7 +28,7 @@ impl State {
         let mut goals: Vec<Vec<GoalFact>> = Vec::new();
         let mut joined: Vec<&Command<Entity>> = Vec::new();
         for (n, command) in commands.iter().enumerate() {
-            if is_part_of_what_follows(commands, n) {
+            if is_part_of_what_follows(commands, n) || goes_on_within(&commands[n..], relations) {
                 continue;
             }
             // «Возьми тарелку и верни на место», «… и убери»: it lies there now, and will not then.
@@ -139,10 +139,25 @@ impl State {
                 if near {
                     belief.beside.insert((name(what.id), name(to.anchor)));
                 }
-                vec![self.delivered(what.id, to, relations)?]
+                let delivered = self.delivered(what.id, to, relations)?;
+                // What lies on top of it is taken down before it is put in: to the rules, "on" is both.
+                let lifted = match (to.relation, what.id, to.anchor) {
+                    (Relation::In, Entity::Replica(thing), Entity::Replica(holder)) => {
+                        relations.support_of(thing) == Some(holder)
+                            && !relations.is_inside(thing, holder)
+                    }
+                    _ => false,
+                };
+                let held = lifted.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);
+                held.into_iter().chain([delivered]).collect()
             }
             Command::SetDown { what, within } => {
-                vec![self.set_down(what.id, *within, relations, belief)?]
+                // What a person has does not lie on the floor where he stands.
+                let given = belief.handed_over.iter().any(|(r, _)| Entity::Replica(r.id) == what.id);
+                let held = given.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);
+                held.into_iter()
+                    .chain([self.set_down(what.id, *within, relations, belief)?])
+                    .collect()
             }
             Command::Take { what } => {
                 self.portable(what.id)?;
@@ -525,6 +540,23 @@ fn is_part_of_what_follows(commands: &[Command<Entity>], at: usize) -> bool {
     };
     let several = between.first().into_iter().chain(at.checked_sub(1).map(|n| &commands[n]));
     !between.iter().any(divides) || several.into_iter().any(is_taken)
+}
+
+/// «Отнеси кружку на кухню и поставь на стол»: whether what is carried into a room is next put on or in what stands there.
+fn goes_on_within(commands: &[Command<Entity>], relations: &Relations) -> bool {
+    let [first, next, ..] = commands else { return false };
+    let carried = |command: &Command<Entity>| match command {
+        Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
+            Some((what.id, to.anchor))
+        }
+        _ => None,
+    };
+    match (carried(first), carried(next)) {
+        (Some((one, Entity::Area(room))), Some((same, Entity::Replica(holder)))) => {
+            one == same && relations.area_of(holder) == Some(room)
+        }
+        _ => false,
+    }
 }
 
 /// Whether two commands one after the other ask for the same to be done to different things: then their order is

@@ -157,10 +157,10 @@ pub(super) fn surprise_in_words(world: &World, surprise: &Surprise, language: La
                 "{} cannot be pushed there",
                 Obstruction::Replica(id),
             ),
-            Refusal::NoRoom(id) => told_in(
-                Case::Prepositional,
-                "на {} нет свободного места",
-                "there is no room on {}",
+            // On it or in it, as was said.
+            Refusal::NoRoom(id) => told(
+                "{}: свободного места там нет",
+                "{} has no room left",
                 Obstruction::Replica(id),
             ),
         },

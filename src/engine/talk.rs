@@ -5,8 +5,8 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said, Senses,
-    Sighting, Thing, Unanswered, Way, unaddressed,
+    Answer, Asker, Corrected, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said,
+    Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -179,6 +179,26 @@ impl State {
             let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
             misheard(unanswered).into()
         })
+    }
+
+    /// A line that corrects itself, as it is meant: see [`Asker::corrected`].
+    pub(super) fn corrected(
+        &self,
+        line: &str,
+        memory: &Memory,
+    ) -> Result<Option<Corrected>, Error> {
+        if conditional(line).is_some() || hinged(line).is_some() {
+            return Ok(None);
+        }
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.corrected(line, memory))
+    }
+
+    /// Notes that an order came to nothing yet, as [`Asker::leave_open`].
+    pub(super) fn leave_open(&self, order: &str, memory: &mut Memory) -> Result<(), Error> {
+        let senses = RobotSenses { engine: self };
+        self.asker(&senses)?.leave_open(order, memory);
+        Ok(())
     }
 
     /// The things that come nearest to a description that nothing fits, as [`Asker::nearest`].

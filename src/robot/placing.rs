@@ -53,6 +53,11 @@ pub enum Hollow {
 #[must_use]
 pub fn hollow(world: &World, scene: &Scene, support: ReplicaId) -> Hollow {
     let Some(placed) = scene.replicas.get(&support) else { return Hollow::No };
+    // Of a sofa the hull is open, and nobody puts things into it.
+    let is = |wanted: &&str| world.has_trait(support, wanted);
+    if ["seat", "bed"].iter().any(is) && !is(&"container") {
+        return Hollow::No;
+    }
     let hollow = || placed.prisms.iter().filter(|p| is_hollow(p));
     if hollow().any(|p| is_open(world, support, p)) {
         Hollow::Open
@@ -253,9 +258,10 @@ fn spot(
         let bounds =
             Bounds { min: shape.bounds.min + at, max: shape.bounds.max + at }.grown(MARGIN);
         let (bottom, top) = (foot, foot + height);
-        // A hollow thing is not in its own way.
-        let is_solid = |r: &PlacedReplica, p: &Prism| {
-            surface.within.is_none() || r.id != support.id || !is_hollow(p)
+        // A hollow thing is not in its own way, nor is the counter into which it is built.
+        let is_solid = |r: &PlacedReplica, p: &Prism| match surface.within {
+            Some(within) => !is_hollow(p) || r.id != support.id && !surrounds(p, within),
+            None => true,
         };
         scene
             .replicas
@@ -315,6 +321,17 @@ fn spot(
 fn is_hollow(prism: &Prism) -> bool {
     prism.roof_permeability != Permeability::Impermeable
         || prism.sides.iter().any(|s| s.permeability != Permeability::Impermeable)
+}
+
+/// Whether one hollow is built into another, which may be a little less deep.
+fn surrounds(outer: &Prism, inner: &Prism) -> bool {
+    let middle = nalgebra::center(&inner.bounds.min, &inner.bounds.max);
+    let extent = |prism: &Prism| prism.bounds.max - prism.bounds.min;
+    let (around, own) = (extent(outer), extent(inner));
+    outer.polygon.contains(middle, 1e-6)
+        && outer.bottom <= inner.bottom + FLAT
+        && outer.top >= inner.top - FLAT
+        && around.x * around.y >= own.x * own.y
 }
 
 /// A hand gets in: by a face that is open, or by a door that is; where no door is drawn, by the lid or drawer that the

@@ -34,8 +34,8 @@ use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
-    Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, hinged,
-    sentences, unaddressed,
+    Aside, Conditional, Corrected, Memory, Thing, Unanswered, aside, asks_whether, begs,
+    conditional, hinged, sentences, unaddressed,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -43,7 +43,7 @@ use crate::store::StoreError;
 use crate::units::Stop;
 
 use super::narration::nothing_to_stop;
-use super::task::{OPERATOR, Progress};
+use super::task::{OPERATOR, Progress, thing_of};
 use super::{After, Engine, Error, QueuedTask};
 
 /// How whoever speaks is told what happens, as it happens.
@@ -55,6 +55,8 @@ pub struct Dialogue {
     memory: Memory,
     /// A line with its verb put right, until the person says that it was meant.
     offered: Option<String>,
+    /// The order that asked back last.
+    open: Option<String>,
     /// Why the last line was not carried out, until another one is answered.
     refusal: Option<String>,
     /// The language of what has no words, and of tasks given by [`Dialogue::order`].
@@ -104,6 +106,7 @@ impl Dialogue {
         Self {
             memory: Memory::speaking(language),
             offered: None,
+            open: None,
             refusal: None,
             language,
             keeps: true,
@@ -125,6 +128,7 @@ impl Dialogue {
         Self {
             memory: self.memory.clone(),
             offered: self.offered.clone(),
+            open: self.open.clone(),
             refusal: self.refusal.clone(),
             language: self.language,
             keeps: true,
@@ -227,7 +231,7 @@ impl Dialogue {
         tell: &mut Tell<'_>,
     ) -> Result<Heard, Error> {
         let mut hearing = Hearing { dialogue: self, engine, tell, heard: Heard::default() };
-        hearing.order(&unaddressed(task))?;
+        hearing.order(task)?;
         Ok(hearing.heard)
     }
 }
@@ -257,6 +261,12 @@ impl Hearing<'_, '_> {
         if line.is_empty() {
             return Ok(());
         }
+        match self.engine.corrected(line, &self.dialogue.memory)? {
+            Some(Corrected::Meant(meant)) => return self.hear(&meant),
+            Some(Corrected::Cancelled) => return self.stop(true, Language::of(line)),
+            Some(Corrected::Unclear(_)) => return self.command(line, false),
+            None => {}
+        }
         let line = &*unaddressed(line);
         let said = aside(line);
         if said == Some(Aside::End) {
@@ -277,7 +287,7 @@ impl Hearing<'_, '_> {
                 };
                 return self.put(Outcome::Reason, &text, language);
             }
-            (Some(Aside::Yes), _, Some(meant)) => return self.command(&meant, true),
+            (Some(Aside::Yes), _, Some(meant)) => return self.obey(&meant, true),
             (Some(Aside::No), _, _) if awaited => return self.stop(true, language),
             _ => {}
         }
@@ -287,7 +297,7 @@ impl Hearing<'_, '_> {
             return Ok(());
         }
         if let Some(whole) = self.engine.resumed(line, &self.dialogue.memory)? {
-            return self.command(&whole, awaited);
+            return self.obey(&whole, awaited);
         }
         if let (Some(Aside::Yes | Aside::No), false) = (said, awaited) {
             let text = language.pick(
@@ -328,11 +338,15 @@ impl Hearing<'_, '_> {
         if parts.len() > 1
             && let Err(error) = self.engine.read_ahead(parts, &self.dialogue.memory)
         {
+            self.leave_order()?;
+            self.dialogue.memory.forget_reply();
             return self.refuse(error, Language::of(&parts.join(" ")));
         }
         for part in parts {
             if self.has_failed() && self.engine.is_command(part)? {
                 self.not_begun(part)?;
+            } else if let Some(whole) = self.engine.resumed(part, &self.dialogue.memory)? {
+                self.obey(&whole, awaited)?;
             } else {
                 self.hear_one(part, awaited)?;
             }
@@ -394,10 +408,18 @@ impl Hearing<'_, '_> {
 
     /// Answers a question, or carries out what proves to be none.
     fn answer(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
+        let asked_back = !self.dialogue.memory.asked_about().is_empty();
         let unanswered = match self.engine.ask(line, &mut self.dialogue.memory)? {
             Ok(answer) => return self.reply(Reply::answer(answer)),
             Err(unanswered) => unanswered,
         };
+        // A question that asks back in its turn is the one to which the next line replies.
+        if asked_back
+            && self.dialogue.memory.asked_about().is_empty()
+            && let Some(order) = self.dialogue.open.take()
+        {
+            self.not_begun(&order)?;
+        }
         // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
         let kind = unanswered.doubt.kind();
         let not_understood = kind != "ambiguous" && !line.contains('?');
@@ -438,7 +460,30 @@ impl Hearing<'_, '_> {
         self.reply(reply)
     }
 
+    /// Does what a line orders; an order that asked back, which this does not answer, is left.
     fn command(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
+        let candidates = self.dialogue.memory.asked_about().to_vec();
+        let answers = |command: &Command<Entity>| match command {
+            Command::Stop => true,
+            other => thing_of(other).is_some_and(|id| candidates.contains(&Thing::Entity(id))),
+        };
+        let heard = self.engine.understand_in(line, &mut self.dialogue.memory.clone());
+        if !heard.is_ok_and(|commands| commands.iter().any(answers)) {
+            self.leave_order()?;
+        }
+        self.obey(line, awaited)
+    }
+
+    /// An order that asked back is done no more.
+    fn leave_order(&mut self) -> Result<(), Error> {
+        let asked = !self.dialogue.memory.asked_about().is_empty();
+        match self.dialogue.open.take().filter(|_| asked) {
+            Some(order) => self.not_begun(&order),
+            None => Ok(()),
+        }
+    }
+
+    fn obey(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
         let language = Language::of(line);
         if let Some(hinged) = hinged(line)
             && let Some(so) = self.dialogue.memory.is_so()
@@ -455,7 +500,9 @@ impl Hearing<'_, '_> {
                     &error,
                     Error::Misheard(Misheard::WhichOf(_) | Misheard::Ambiguous { .. })
                 );
-                if !asks_back {
+                if asks_back {
+                    self.dialogue.open = Some(line.to_owned());
+                } else {
                     self.engine.hear_of(line, &mut self.dialogue.memory)?;
                 }
                 return match self.offer_nearest(line, &error, language)? {

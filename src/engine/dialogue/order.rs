@@ -2,17 +2,24 @@
 
 use crate::engine::Error;
 use crate::language::command::{in_time, is_order, waiting};
-use crate::language::question::conditional;
+use crate::language::question::{Corrected, conditional, unaddressed};
 
 use super::{Event, Given, Hearing, Outcome};
 
 impl Hearing<'_, '_> {
     pub(super) fn order(&mut self, task: &str) -> Result<(), Error> {
-        if let Some(said) = waiting(task)
+        if let Some(said) = waiting(&unaddressed(task))
             && self.of_waiting(said, false, self.dialogue.language)?
         {
             return Ok(());
         }
+        match self.engine.corrected(task, &self.dialogue.memory)? {
+            Some(Corrected::Meant(meant)) => return self.order(&meant),
+            Some(Corrected::Cancelled) => return self.stop(true, self.dialogue.language),
+            Some(Corrected::Unclear(_)) => return self.one_order(task),
+            None => {}
+        }
+        let task = &*unaddressed(task);
         let parts = match self.engine.parts_of(task, &self.dialogue.memory)? {
             // «Проверь, открыт ли холодильник» orders nothing but an answer.
             Some(parts) if parts.len() == 1 => return self.ask(&parts[0]),

@@ -10,7 +10,7 @@ use crate::language::command::{
     without_clock,
 };
 use crate::language::question::{
-    Answer, Conditional, Memory, Thing, Unanswered, conditional, hinged,
+    Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged,
 };
 use crate::map::Entity;
 use crate::units::Point;
@@ -33,6 +33,17 @@ impl State {
         sentence: &str,
         memory: &mut Memory,
     ) -> Result<Vec<Command<Entity>>, Error> {
+        let corrected = match self.corrected(sentence, memory)? {
+            None => Cow::Borrowed(sentence),
+            Some(Corrected::Meant(meant)) => Cow::Owned(meant),
+            Some(Corrected::Cancelled) => return Ok(vec![Command::Stop]),
+            Some(Corrected::Unclear(words)) => {
+                let language = Language::of(sentence);
+                let unclear = Unanswered::uncorrected(&words, language);
+                return Err(Misheard::NoneSuch(Box::new(unclear)).into());
+            }
+        };
+        let sentence = &*corrected;
         if let Some(conditional) = conditional(sentence) {
             return self.understood_if(&conditional, memory);
         }
@@ -137,33 +148,29 @@ impl State {
             Entity::Replica(id) => !world.has_trait(*id, "portable"),
             _ => true,
         };
+        let own = self.held()?.map(|replica| Entity::Replica(replica.id));
+        let held = |entity: &Entity| Some(*entity) == own;
         let listener = Listener::new(self.forms()?)
             .remembering(last)
             .knowing(meant)
             .choosing(&nearest)
-            .clearing(&fixed);
+            .clearing(&fixed)
+            .visiting(&|entity| matches!(entity, Entity::Area(_)))
+            .holding(&held);
         let windows: Vec<(Entity, Option<u32>)> =
             resolved.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
         let resolved = resolved.text;
         let mut commands = match listener.hear(&resolved) {
             Ok(commands) => commands,
             Err(misheard) => {
-                // «На карте нет «лекарсво». Есть «Лекарство».» – «Да.»
-                if let Misheard::UnknownName { near, at, .. } = &misheard
-                    && let [name] = &near[..]
-                    && let [only] = self.world()?.find(name)[..]
-                {
-                    let at = at.offset()..at.offset() + at.len();
-                    let language = Language::of(&resolved);
-                    memory.wait(&resolved, at, vec![Thing::Entity(only)], language);
-                }
+                self.wait_for_a_name(&misheard, &resolved, memory)?;
                 // What was spoken of may have left the map.
                 if let Misheard::Incomplete { .. } = &misheard
                     && let Some(gone) = memory.lost_topic(Language::of(&resolved))
                 {
                     return Err(Misheard::NoneSuch(Box::new(gone)).into());
                 }
-                return Err(misheard.into());
+                return Err(misheard.quoted_from(&sentence).into());
             }
         };
         self.check_places(&commands)?;
@@ -174,6 +181,15 @@ impl State {
         }
         if let Some(here) = self.place_of_robot() {
             memory.stand(Thing::Entity(here));
+            let to_person = |c: &Command<Entity>| matches!(c, Command::Bring { to: None, .. });
+            memory.speak_from(Thing::Entity(here), commands.iter().any(to_person));
+        }
+        // Who calls stands where he was when he sent the robot away.
+        if let ([Command::ComeHere], None) = (&commands[..], self.person)
+            && let Some(Thing::Entity(anchor)) = memory.place_of_speaker()
+        {
+            let to = Placement::new(Relation::At, anchor);
+            commands = vec![Command::GoTo { to, via: None, facing: None }];
         }
         if let [Command::ComeBack] = commands[..] {
             if let Some(gone) = memory.lost_place(Language::of(&resolved)) {
@@ -192,6 +208,33 @@ impl State {
             memory.order(&named, &places.collect::<Vec<_>>());
         }
         Ok(commands)
+    }
+
+    /// An order waits for the name that it lacks, and is what the next line amends: «На карте нет «лекарсво». Есть
+    /// «Лекарство».» – «Да.»
+    fn wait_for_a_name(
+        &self,
+        misheard: &Misheard,
+        order: &str,
+        memory: &mut Memory,
+    ) -> Result<(), Error> {
+        let world = self.world()?;
+        let meant = match misheard {
+            Misheard::UnknownName { near, at, .. } if near.len() == 1 => Some((near, at)),
+            Misheard::Ambiguous { candidates, at, .. } => Some((candidates, at)),
+            _ => None,
+        };
+        if let Some((names, at)) = meant {
+            let named = |name: &String| match world.find(name)[..] {
+                [only] => Some(Thing::Entity(only)),
+                _ => None,
+            };
+            let at = at.offset()..at.offset() + at.len();
+            if let Some(things) = names.iter().map(named).collect() {
+                memory.wait(order, at, things, Language::of(order));
+            }
+        }
+        self.leave_open(order, memory)
     }
 
     /// Where a thing or a place is said to be, there it must be: what no other part of a command has used is compared

@@ -254,7 +254,13 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         roles.on_floor &= !on_floor;
         let named = !roles.objects.is_empty();
         let clears = verb == Verb::Clear;
+        // «Обойди стол» goes around it.
+        let is_room = |thing: &T| self.listener.rooms.is_some_and(|is_room| is_room(thing));
+        if verb == Verb::Visit && (!roles.objects.iter().all(is_room) || !named || placed) {
+            return Err(self.unable(words));
+        }
         let verb = match verb {
+            Verb::Visit => Verb::GoTo,
             Verb::Put | Verb::Move | Verb::Clear | Verb::Leave if on_floor => Verb::SetDown,
             // «Подожди в коридоре»
             Verb::Wait if placed => Verb::GoTo,
@@ -339,7 +345,13 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 return Ok(if places.is_empty() { vec![done(None)] } else { places });
             }
             // «Съезди на кухню и в спальню» is two verbs; «на кухню и спальню» has one preposition.
-            Verb::GoTo if roles.to.is_some() && named && roles.listed && roles.via.is_none() => {
+            // "Visit the kitchen, the bath and the hall": one after the other.
+            Verb::GoTo
+                if named
+                    && roles.listed
+                    && roles.via.is_none()
+                    && (roles.to.is_some() || roles.objects.len() > 1 && !placed) =>
+            {
                 let facing = roles.facing.take();
                 let objects = std::mem::take(&mut roles.objects).into_iter();
                 let to = roles.to.take().into_iter().chain(objects.map(|anchor| {
@@ -438,6 +450,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::Put, None) if to_me => Command::Bring { what, to: None },
             (Verb::PutBack, _) => Command::PutBack(what),
             (Verb::Clear, None) => Command::PutAway(what),
+            // «Возьми чашку. – Поставь её»: what is in the hand can be set down.
+            (Verb::Put, None) if self.listener.held.is_some_and(|held| held(&what.id)) => {
+                Command::SetDown { what, within: None }
+            }
             (Verb::Put, None) => {
                 return Err(self.incomplete(words, ("куда положить", "where to put it")));
             }
@@ -464,6 +480,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 | Verb::Leave
                 | Verb::Wait
                 | Verb::Face
+                | Verb::Visit
                 | Verb::Unable
                 | Verb::Stop
                 | Verb::Needless,

@@ -16,7 +16,7 @@ pub(super) struct Clause<'i, 's, T> {
     pub(super) on_floor: bool,
     pub(super) to_wall: bool,
     pub(super) haunt: Option<Haunt>,
-    /// Whether each argument without a preposition stands behind «и».
+    /// Whether each argument without a preposition stands behind «и» or a comma, or is the first of nothing else.
     pub(super) listed: bool,
     /// Who speaks, where the clause names that; and whether behind «и».
     pub(super) me: Option<&'i Range<usize>>,
@@ -59,10 +59,16 @@ pub(super) fn clauses<'i, 's, T>(
         }
     }
     starts.push(items.len());
-    starts.windows(2).map(|bounds| clause(&items[bounds[0]..bounds[1]])).collect()
+    starts.windows(2).map(|bounds| clause(sentence, &items[bounds[0]..bounds[1]])).collect()
 }
 
 impl Sentence<'_> {
+    /// Whether a comma, and nothing else, parts some words from those before them.
+    fn is_parted(&self, before: &Range<usize>, words: &Range<usize>) -> bool {
+        let between = &self.text[self.span(before).end..self.span(words).start];
+        between.trim_start().starts_with(',')
+    }
+
     /// Whether words may be what the verb behind them is done to.
     fn leads_to(&self, named: &Range<usize>, verb: &Range<usize>) -> bool {
         let verb = self.span(verb);
@@ -72,7 +78,11 @@ impl Sentence<'_> {
     }
 }
 
-fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
+fn is_linked<T>(item: &Item<'_, T>) -> bool {
+    matches!(item, Item::Argument(Argument { link: Some(_), .. }))
+}
+
+fn clause<'i, 's, T>(sentence: &Sentence<'_>, items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
     let mut clause = Clause {
         verb: None,
         before: vec![],
@@ -90,8 +100,14 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
         // "the sofa and the bed"
         let mut before = items[..at].iter().rev().skip_while(|item| matches!(item, Item::Filler));
         let mut joined = || matches!(before.next(), Some(Item::And));
-        if let Item::Argument(Argument { link: None, .. }) = item {
-            clause.listed &= joined();
+        if let Item::Argument(Argument { link: None, words, .. }) = item {
+            let first = clause.before.is_empty() && clause.after.is_empty();
+            clause.listed &= match clause.after.last().filter(|_| !first) {
+                Some(last) if sentence.is_parted(&last.words, words) => true,
+                // "Go Room 1 to Room 2" is no list.
+                _ if first => !items[at + 1..].iter().any(is_linked),
+                _ => joined(),
+            };
         }
         if let Item::Argument(Argument { reference: Reference::Me, words, .. }) = item {
             (clause.me, clause.me_joined) = (Some(words), joined());

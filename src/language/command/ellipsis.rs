@@ -167,10 +167,22 @@ pub(super) fn verb_again(said: &Said) -> Option<String> {
         let begin = first_word(said, &next.words)?;
         let named = object(said, &next.words);
         let goes = |words: &Range<usize>| says_whither(said, words, Sort::of(kind));
+        let own = verb + taken..before.words.end;
         let objects = !told.0.is_empty() && !named.0.is_empty();
-        let alike = told.1.map(|(_, role)| role) == named.1.map(|(_, role)| role);
+        let role = |place: Option<(Relation, Role)>| place.map(|(_, role)| role);
+        // "… from the hall to the bath, and the cup to the kitchen"
+        let whence = [told.1, named.1].iter().any(|place| role(*place) == Some(Role::Whence));
+        // "Bring me the mug, and the plate to the kitchen": without a mark both may go there.
+        let is_me = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Me)));
+        let last = own.clone().rfind(|n| is_me(*n)).is_some_and(|n| n >= told.0.end);
+        let to_me = Sort::of(kind) == Sort::Carry
+            && own.clone().any(is_me)
+            && (last || next.contrasted || said.parted(before.words.end));
+        let alike = to_me || whence || role(told.1) == role(named.1);
         let gaps = next.verbs.is_empty() && objects && alike;
-        let gaps = gaps && goes(&(verb + taken..before.words.end)) && goes(&next.words);
+        let gaps = gaps
+            && (to_me || goes(&own))
+            && (goes(&next.words) || to_me && next.contrasted && named.1.is_some());
         (gaps && !is_relative(&said.keys, begin)).then(|| {
             let first = next.words.start..next.words.start + 1;
             let again = format!("{} {}", said.of(&(verb..verb + taken)), said.of(&first));

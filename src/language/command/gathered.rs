@@ -71,6 +71,19 @@ fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -
         || meaning_at(keys, at).is_some_and(|m| m.1 == Meaning::And)
 }
 
+/// Whether a relative clause, which begins at a word, tells of a pointing word that has no noun: «принеси тот, что на столе».
+fn stands_for_noun(keys: &[String], at: usize) -> bool {
+    const POINTING: [&str; 6] = ["тот", "та", "ту", "то", "того", "той"];
+    let points = |n: usize| keys.get(n).is_some_and(|key| POINTING.contains(&key.as_str()));
+    let Some(pointing) = (at.saturating_sub(1)..=at).find(|n| points(*n)) else { return false };
+    (0..pointing).rev().take(2).any(|n| {
+        meaning_at(keys, n).is_some_and(|(taken, meaning)| {
+            n + taken == pointing
+                && matches!(meaning, Meaning::Verb(_) | Meaning::Filler | Meaning::Me)
+        })
+    })
+}
+
 fn without_relatives(text: &str) -> Cow<'_, str> {
     let words = word_ranges(text);
     let keys = keys_of(text, &words);
@@ -90,7 +103,9 @@ fn without_relatives(text: &str) -> Cow<'_, str> {
             // "Bring the one from the dresser" has no other object.
             let parted = text[words[at - 1].end..words[at].start].contains(',');
             let before_place = before_place && (!pointing || parted) || pointing && nearest;
-            before_place && said.is_some_and(|said| RELATIVE.contains(&said.join(" ").as_str()))
+            before_place
+                && !stands_for_noun(&keys, at)
+                && said.is_some_and(|said| RELATIVE.contains(&said.join(" ").as_str()))
         });
         if let Some(length) = relative {
             gone.push(words[at - 1].end..words[at + length - 1].end);

@@ -1,11 +1,13 @@
 //! Why a sentence is no command, and how that is told to the person in either language.
 
+use std::ops::Range;
+
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::question::Unanswered;
-use crate::units::{InEnglish, Source, capitalized};
-use crate::words::{Language, alternatives};
+use crate::units::{InEnglish, OwnText, Source, capitalized};
+use crate::words::{Language, alternatives, word_keys, word_ranges};
 
 /// Why a sentence is no command. The sentence is kept, so that the word can be shown in it.
 #[derive(Debug, Clone, Error, Diagnostic)]
@@ -106,6 +108,46 @@ pub enum Misheard {
         #[label("такого названия нет")]
         at: SourceSpan,
     },
+}
+
+impl Misheard {
+    /// The same in the words of who spoke: an order is put plainly before it is heard, and what was put in is not theirs.
+    #[must_use]
+    pub fn quoted_from(mut self, said: &str) -> Self {
+        let (Self::NotUnderstood { word: shown, text, at, .. }
+        | Self::Unable { word: shown, text, at }
+        | Self::UnknownName { reference: shown, text, at, .. }
+        | Self::Ambiguous { reference: shown, text, at, .. }) = &mut self
+        else {
+            return self;
+        };
+        let own = own_words(shown, said);
+        let told = said[own.clone()].to_owned();
+        let is_other = word_keys(&told) != word_keys(shown);
+        (*shown, *text) = (told, Source::own(OwnText::Order, said));
+        *at = (own.start, own.len()).into();
+        if let (Self::UnknownName { near, .. }, true) = (&mut self, is_other) {
+            near.clear();
+        }
+        self
+    }
+}
+
+/// Bytes of the longest run of some words that stands in a text; the whole text where none of them does.
+fn own_words(shown: &str, said: &str) -> Range<usize> {
+    let (words, keys, wanted) = (word_ranges(said), word_keys(said), word_keys(shown));
+    let run = |at: usize, from: usize| {
+        let pairs = keys[at..].iter().zip(&wanted[from..]);
+        pairs.take_while(|(own, wanted)| own == wanted).count()
+    };
+    let runs = (0..keys.len()).flat_map(|at| (0..wanted.len()).map(move |from| (at, from)));
+    let longest = runs.map(|(at, from)| (run(at, from), std::cmp::Reverse(at))).max();
+    match longest {
+        Some((length @ 1.., std::cmp::Reverse(at))) => {
+            words[at].start..words[at + length - 1].end
+        }
+        _ => 0..said.len(),
+    }
 }
 
 /// What the robot can do, in Russian and in English.

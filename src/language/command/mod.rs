@@ -20,6 +20,7 @@
 mod assemble;
 mod blame;
 mod clauses;
+mod correction;
 mod ellipsis;
 mod gathered;
 mod going;
@@ -37,6 +38,7 @@ mod verbs;
 mod vocabulary;
 mod waiting;
 
+pub(crate) use correction::{Correction, correction, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_of_another, says_whither};
 pub use hints::{in_time, is_command, is_order, preamble, without_clock};
@@ -44,7 +46,7 @@ pub use misheard::Misheard;
 pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
 pub(crate) use verbs::{
-    Sort, clauses, forbids, is_known, link_at, link_before, small_words, without_verbs,
+    Sort, clauses, forbids, is_known, link_at, link_before, small_words, verbs_of, without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
 pub use waiting::{Waiting, waiting};
@@ -250,12 +252,14 @@ pub struct Listener<'i, T> {
     meant: Vec<T>,
     any: Option<&'i Any<'i, T>>,
     fixed: Option<&'i Fixed<'i, T>>,
+    rooms: Option<&'i Fixed<'i, T>>,
+    held: Option<&'i Fixed<'i, T>>,
 }
 
 /// Of several things any of which will do, the one to take: the nearest, say.
 pub type Any<'a, T> = dyn Fn(&[T]) -> Option<T> + 'a;
 
-/// Whether a thing cannot be carried.
+/// Whether a thing cannot be carried, say.
 pub type Fixed<'a, T> = dyn Fn(&T) -> bool + 'a;
 
 impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
@@ -264,7 +268,8 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 
     #[must_use]
     pub fn new(index: &'i FormIndex<T>) -> Self {
-        Self { index, last: Vec::new(), meant: Vec::new(), any: None, fixed: None }
+        let (last, meant) = (Vec::new(), Vec::new());
+        Self { index, last, meant, any: None, fixed: None, rooms: None, held: None }
     }
 
     /// What "them" means when the sentence itself has named nothing; «её» is the last of it.
@@ -290,6 +295,18 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     #[must_use]
     pub fn clearing(self, fixed: &'i Fixed<'i, T>) -> Self {
         Self { fixed: Some(fixed), ..self }
+    }
+
+    /// «Обойди» is done to what is a room.
+    #[must_use]
+    pub fn visiting(self, rooms: &'i Fixed<'i, T>) -> Self {
+        Self { rooms: Some(rooms), ..self }
+    }
+
+    /// «Поставь её» sets down what is held; of anything else it is asked whither.
+    #[must_use]
+    pub fn holding(self, held: &'i Fixed<'i, T>) -> Self {
+        Self { held: Some(held), ..self }
     }
 
     /// The commands of a sentence, in the order in which they are to be done; at least one.

@@ -67,6 +67,7 @@ pub(super) fn direction<T>(verb: Verb, link: Link, argument: &Argument<'_, T>) -
 pub(super) fn by_verb(verb: Verb) -> Role {
     match verb {
         Verb::GoTo
+        | Verb::Visit
         | Verb::Move
         | Verb::Put
         | Verb::SetDown
@@ -94,7 +95,12 @@ pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::Find => ("что найти", "what to find"),
         Verb::PutBack => ("что вернуть на место", "what to put back"),
         Verb::ThrowAway => ("что выбросить", "what to throw away"),
-        Verb::GoTo | Verb::Move | Verb::Get | Verb::Return | Verb::Leave => {
+        Verb::GoTo
+        | Verb::Visit
+        | Verb::Move
+        | Verb::Get
+        | Verb::Return
+        | Verb::Leave => {
             ("куда ехать", "where to go")
         }
         Verb::Tidy

@@ -26,7 +26,7 @@ pub(crate) enum Sort {
 impl Sort {
     pub(super) fn of(verb: Verb) -> Self {
         match verb {
-            Verb::GoTo | Verb::Face | Verb::Charge => Self::Go,
+            Verb::GoTo | Verb::Visit | Verb::Face | Verb::Charge => Self::Go,
             Verb::Leave => Self::Leave,
             Verb::Bring | Verb::Get | Verb::Need | Verb::Take | Verb::ThrowAway => Self::Carry,
             Verb::Put | Verb::SetDown | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => {
@@ -200,6 +200,11 @@ fn found(text: &str) -> Vec<Found> {
 #[must_use]
 pub(crate) fn clauses(text: &str) -> Vec<(usize, Sort)> {
     found(text).into_iter().map(|f| (f.at.start, Sort::of(f.verb))).collect()
+}
+
+/// Where the verbs of a text stand that begin its clauses.
+pub(crate) fn verbs_of(text: &str) -> Vec<Range<usize>> {
+    found(text).into_iter().map(|f| f.at).collect()
 }
 
 /// Whether a text has a verb of command anywhere.

@@ -90,6 +90,8 @@ pub(super) enum Verb {
     Wait,
     /// «повернись к окну»
     Face,
+    /// «обойди»: into each of the rooms that are named; what is no room is gone around, and that this one cannot do.
+    Visit,
     /// What people ask of robots and this one cannot do.
     Unable,
 }
@@ -135,6 +137,10 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         go|go over|nip over|nip|pop over|hop over|swing by|stop by|drop by|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|stand|go stand|approach|going",
     ),
     (
+        Meaning::Verb(Verb::Visit),
+        "обойди|обойдите|обойти|обходи|обходите|объедь|объедьте|объехать|объезжай|объезжайте|объезди|посети|посетите|посетить|make the rounds of|do the rounds of|make a tour of",
+    ),
+    (
         Meaning::Verb(Verb::Return),
         "верни|верните|вернуть|вернись|вернитесь|вернуться|возвращайся|возвращайтесь|вернись обратно|вернись назад|вернись туда откуда приехал|вернись туда откуда приехала|вернись откуда приехал|вернись туда где был|вернись туда где ты был|вернись туда|go back where you came from|go back to where you came from|return to where you came from|go back to where you were|go back where you were|come back|go back|get back|head back|drive back|return",
     ),
@@ -157,7 +163,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Unable),
-        "застели|застелите|заправь|заправьте|объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|накрой|накройте|накрой на стол|накрыть на стол|сервируй|поменяй местами|поменяйте местами|lay the table|set the table|set a table|lay a table|swap|exchange|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
+        "застели|застелите|заправь|заправьте|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|накрой|накройте|накрой на стол|накрыть на стол|сервируй|поменяй местами|поменяйте местами|lay the table|set the table|set a table|lay a table|swap|exchange|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
         спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
         почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
         follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|take out the trash|take out the garbage|take out the rubbish|go around|drive around|go round|покажи|покажите|tell me a joke|tell a joke|turn around|turn round|rotate|spin|развернись|вытри|\
@@ -346,6 +352,13 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (Meaning::Pronoun, "его|её|него|неё|ней|ним|ему|нему|нём|ей|ею|it|him|her"),
     (Meaning::Them, "их|них|им|ими|ними|them|both of them|all of them"),
 ];
+
+/// What takes back what was ordered before it, and says what is meant instead.
+pub(super) const CORRECTIONS: &str = "no|no no|no sorry|sorry|oh no|oops|actually|or rather|rather|i mean|i meant|make that|make it|scratch that|or better|better|\
+    нет|нет нет|ой|ой нет|вернее|точнее|лучше|а лучше|хотя нет|хотя лучше|то есть|извини|извините|прости|простите|или нет|или лучше|я имел в виду|я имела в виду";
+
+/// What may do so, and may also be said by itself.
+pub(super) const HESITATIONS: &str = "wait|hold on|oh|hm|стоп|стой|погоди|постой|подожди|ну";
 
 /// Past forms, which order behind «чтобы» and «бы» alone: «хочу, чтобы ты закрыл дверь». «Ты закрыл дверь?» orders nothing.
 const WISHED: &[(Verb, &str)] = &[

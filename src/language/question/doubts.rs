@@ -40,6 +40,17 @@ impl Unanswered {
         Self { doubt: Doubt::not_understood(order), language, text, names: Vec::new() }
     }
 
+    /// Of a line that takes back its order, and says something else instead that is not understood.
+    #[must_use]
+    pub fn uncorrected(words: &str, language: Language) -> Self {
+        let said = words.trim().trim_end_matches(['.', '!']);
+        let text = language.pick(
+            format!("Я не понимаю, что взамен: «{said}». Ничего не сделано."),
+            format!("I do not understand what is meant instead: \"{said}\". Nothing was done."),
+        );
+        Self { doubt: Doubt::not_understood(said), language, text, names: Vec::new() }
+    }
+
     /// What was asked for is called so by nothing on the map, which denies nothing: it may be there under another name. Of a
     /// word that `known` does not say to be one, that is told as well.
     pub(super) fn not_denied(self, known: impl Fn(&str) -> bool) -> Self {

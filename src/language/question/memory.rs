@@ -51,6 +51,8 @@ pub struct Memory {
     pub(super) ordered: Option<Ordered>,
     /// Where the person has said to be.
     pub(super) person: Option<Entity>,
+    /// Where the robot was when it was first told something, or was last told to bring something: with the person.
+    pub(super) called_from: Option<Thing>,
     /// Where the robot was when it was last told something.
     pub(super) stands: Option<Thing>,
     /// Where the robot was before it was last sent away.
@@ -95,6 +97,8 @@ pub(super) struct Ordered {
     pub(super) told: Vec<Range<usize>>,
     /// Bytes of whither, with the preposition.
     pub(super) goal: Option<Range<usize>>,
+    /// Whether the things are those that were meant, and not all that the words may mean.
+    pub(super) is_resolved: bool,
     pub(super) language: Language,
 }
 
@@ -120,6 +124,12 @@ impl Memory {
     #[must_use]
     pub fn awaits_reply(&self) -> bool {
         self.waiting.is_some() || self.pending.is_some()
+    }
+
+    /// The things one of which a command is to be done to, as soon as the person says which.
+    #[must_use]
+    pub fn asked_about(&self) -> &[Thing] {
+        self.waiting.as_ref().map_or(&[], |waiting| &waiting.candidates)
     }
 
     /// Drops what waits for a reply.
@@ -148,6 +158,19 @@ impl Memory {
             }
             _ => {}
         }
+    }
+
+    /// Notes where the robot is as it is told something, and whether it is to bring something thither.
+    pub fn speak_from(&mut self, place: Thing, brings: bool) {
+        if brings || self.called_from.is_none() {
+            self.called_from = Some(place);
+        }
+    }
+
+    /// Where the person is who says "here", as far as that is known.
+    #[must_use]
+    pub fn place_of_speaker(&self) -> Option<Thing> {
+        self.person.map(Thing::Entity).or(self.called_from)
     }
 
     /// Whether what was asked last is so; none where it was not asked whether.
@@ -425,6 +448,10 @@ impl Memory {
         self.so = None;
         // "By the book, do you mean …? – Is it open?" means one of those.
         if let Doubt::Ambiguous { candidates, .. } = doubt {
+            // A reply is to what was asked back last.
+            if self.waiting.take().is_some() {
+                self.ordered = None;
+            }
             self.exchanges.insert(0, Exchange::list(candidates));
             self.exchanges.truncate(RECENT);
             return;

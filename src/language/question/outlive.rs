@@ -61,6 +61,7 @@ impl Memory {
             }
         }
         self.person = self.person.filter(|place| !is_gone(&Thing::Entity(*place)));
+        self.called_from = self.called_from.filter(|place| !is_gone(place));
         self.stands = self.stands.filter(|place| !is_gone(place));
         if let Some(departed) = self.left.and_then(gone) {
             (self.left, self.left_departed) = (None, Some(departed));

@@ -278,6 +278,20 @@ impl Resolver<'_, '_> {
         Ok((!chosen.is_empty()).then_some(chosen))
     }
 
+    /// Of several things that fit, the only one in a room.
+    pub(super) fn only_one_in(
+        &self,
+        room: AreaId,
+        noun: &Noun,
+        within: &[Restriction],
+    ) -> Option<Thing> {
+        let found = self.candidates(noun, within).ok().filter(|found| found.len() > 1)?;
+        let mut there = found
+            .into_iter()
+            .filter(|t| t.replica().is_some() && self.knowledge.area_of(*t) == Some(room));
+        there.next().filter(|_| there.next().is_none() && !noun.counts_several())
+    }
+
     /// The room in which the robot is.
     pub(super) fn here(&self) -> Option<AreaId> {
         let (map, pose) = self.knowledge.senses.robot()?;

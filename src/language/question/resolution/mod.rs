@@ -9,27 +9,31 @@
 
 mod choice;
 mod object;
+mod open;
 mod place;
 mod reply;
 mod terse;
+mod used;
 mod words;
 
 use std::ops::Range;
 
+pub use open::Corrected;
+
 use object::More;
 use place::{Spot, case_of};
+use used::Used;
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
 use super::memory::{Exchange, Ordered, Waiting};
-use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
-use super::uses;
+use super::query::{Head, Rel, Restriction, Thing};
 use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::units::{AreaId, InOrder as _};
-use crate::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
+use crate::words::{Case, NounPhrase, enumerate, word_keys, word_ranges};
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
 pub type Strict<'a> = dyn Fn(&str) -> Option<Entity> + 'a;
@@ -71,6 +75,21 @@ impl Asker<'_> {
         memory: &mut Memory,
         strict: &Strict<'_>,
     ) -> Result<Resolved, Misread> {
+        let resolved = self.resolved(text, memory, strict);
+        if resolved.is_err() {
+            let waiting = memory.waiting.as_ref().map(|waiting| waiting.text.clone());
+            let text = waiting.unwrap_or_else(|| self.plain(&command::gathered(text)));
+            self.leave_open(&text, memory);
+        }
+        resolved
+    }
+
+    fn resolved(
+        &self,
+        text: &str,
+        memory: &mut Memory,
+        strict: &Strict<'_>,
+    ) -> Result<Resolved, Misread> {
         let waiting = memory.waiting.take();
         if command::is_too_long(text) {
             return Ok(Resolved { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
@@ -107,7 +126,7 @@ impl Asker<'_> {
         };
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
-        let text = self.with_activity(text, language).map_err(misread)?;
+        let Used { text, at: used, heads } = self.with_use(text, language).map_err(misread)?;
         let numbers = command::lost(&said, &word_keys(&text)).into_iter();
         if let Some(number) = numbers.into_iter().find(|key| key.chars().all(char::is_numeric)) {
             return Err(misread(Doubt::not_understood(&number)));
@@ -122,8 +141,21 @@ impl Asker<'_> {
                 Some(waiting) => waiting.candidates,
                 None => memory.last.clone(),
             };
-            let resolver = Resolver { knowledge: &knowledge, sentence: &sentence, strict, spoken };
-            resolver.resolve(&text)
+            let mut resolver =
+                Resolver { knowledge: &knowledge, sentence: &sentence, strict, spoken, used: None };
+            // The best sort of what serves, of which there is one where the order says.
+            let mut of_use = heads.into_iter().map(|head| {
+                resolver.used = Some((used.clone(), head));
+                resolver.resolve(&text)
+            });
+            match of_use.next() {
+                Some(Err(missed)) => of_use.find(Result::is_ok).unwrap_or(Err(missed)),
+                Some(found) => found,
+                None => {
+                    drop(of_use);
+                    resolver.resolve(&text)
+                }
+            }
         };
         match resolved {
             Ok(mut edits) => {
@@ -148,6 +180,7 @@ impl Asker<'_> {
                         .map(|e| e.at.clone())
                         .collect(),
                     goal,
+                    is_resolved: true,
                     language,
                 });
                 memory.ordered = amendable.or(memory.ordered.take());
@@ -233,40 +266,6 @@ impl Asker<'_> {
             .map(|words| sentence.said(&words).to_owned())
     }
 
-    /// «Дай что-нибудь почитать», "something to cut an apple with": with the nearest portable thing of that use.
-    fn with_activity(&self, text: String, language: Language) -> Result<String, Doubt> {
-        let (words, keys) = (word_ranges(&text), word_keys(&text));
-        let Some(wanted) = uses::wanted(&keys) else { return Ok(text) };
-        let memory = Memory::default();
-        let knowledge = self.knowledge(language, &memory);
-        // What is only looked for need not be carried.
-        let found = keys.iter().any(|key| ["find", "найди", "найти", "поищи"].contains(&&**key));
-        let portable =
-            |t: &Thing| found || t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
-        let of_sort = |sort: &u16| {
-            let kinds = self.mind.lexicon.kinds_of_sort(*sort);
-            let noun = Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() };
-            let mut things = knowledge.base(&noun.head);
-            things.retain(portable);
-            (noun, things)
-        };
-        let all: Vec<(Noun, Vec<Thing>)> = wanted.sorts.iter().map(of_sort).collect();
-        let Some((_, carried)) = all.iter().find(|(_, things)| !things.is_empty()) else {
-            let Some((noun, _)) = all.into_iter().next() else { return Ok(text) };
-            return Err(Doubt::NoneSuch { noun: Box::new(noun) });
-        };
-        let nearest = Noun {
-            head: Head { things: Some(carried.clone()), ..Head::default() },
-            best: Some(Best { extreme: Extreme::Nearest, anchor: None }),
-            ..Noun::default()
-        };
-        let Some(thing) = knowledge.find(&nearest, true)?.first().copied() else { return Ok(text) };
-        let mut text = text;
-        let name = knowledge.form(thing, Case::Accusative);
-        text.replace_range(words[wanted.words.start].start..words[wanted.words.end - 1].end, &name);
-        Ok(text)
-    }
-
     /// «Принеси ещё одну»: with the noun of what was spoken of last.
     fn with_kind(&self, mut text: String, memory: &Memory) -> String {
         let (words, keys) = (word_ranges(&text), word_keys(&text));
@@ -304,12 +303,14 @@ struct Resolver<'s, 'k> {
     strict: &'s Strict<'s>,
     /// What "the red one" may be: what was asked about, or the last answer.
     spoken: Vec<Thing>,
+    /// The name at these bytes stands for any of such things.
+    used: Option<(Range<usize>, Head)>,
 }
 
 impl<'s, 'k> Resolver<'s, 'k> {
     /// One that reads a sentence, and resolves nothing.
     fn reading(knowledge: &'s Knowledge<'k>, sentence: &'s Sentence<'s>) -> Self {
-        Self { knowledge, sentence, strict: &|_| None, spoken: Vec::new() }
+        Self { knowledge, sentence, strict: &|_| None, spoken: Vec::new(), used: None }
     }
 }
 
@@ -324,12 +325,14 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// What the place that says whither means, by name; places in which that one is go with it.
+    /// What the place that says whither means, by name; places in which that one is go with it. `room`, where the sentence
+    /// has sent what goes there.
     fn whither<'i>(
         &self,
         spot: &Spot<'i>,
         others: &mut Vec<&Spot<'i>>,
         sort: Sort,
+        room: Option<AreaId>,
         edits: &mut Vec<Edit>,
     ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
         let mut within = spot.within.clone();
@@ -353,7 +356,10 @@ impl Resolver<'_, '_> {
         if spot.rel == Rel::Between {
             return self.between(spot, &within, edits);
         }
-        let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
+        // «Отнеси кружку на кухню и поставь на стол»: on the one that is there.
+        let there = room.and_then(|room| self.only_one_in(room, &spot.phrase.noun, &within));
+        let thing = there.map_or_else(|| self.place(spot, &within), |there| Ok(Some(there)))?;
+        let Some(thing) = thing else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
         let name = self.knowledge.form(self.told_by(thing), case_of(spot.rel, true));
         let at = self.bytes(&spot.phrase.words);
@@ -400,9 +406,10 @@ impl Resolver<'_, '_> {
             |byte: usize| clauses.iter().rposition(|(start, _)| *start <= byte).unwrap_or(0);
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
         let items = self.numbered(self.sentence.items())?;
-        let items = self.freed(items, |byte| sort(clause_at(byte)));
+        let items = self.of_use(self.freed(items, |byte| sort(clause_at(byte))));
+        let (items, links) = self.rounds(items, |byte| sort(clause_at(byte)));
         let spots = self.spots(&items, clause_at, &sort);
-        let mut edits = Vec::new();
+        let mut edits: Vec<Edit> = links.iter().map(Edit::deletion).collect();
         // «Отнеси чашку на стол. Положи туда книгу»: whither the last order went.
         let memory = self.knowledge.memory;
         let place = memory.told_place.or_else(|| memory.last_thing());
@@ -440,7 +447,10 @@ impl Resolver<'_, '_> {
         let goal = self.destination(sort, &own, !objects.is_empty());
         let goal = goal.filter(|goal| !self.tells_of_fixed(sort, own[*goal], objects));
         let whither = match goal {
-            Some(goal) => self.whither(own.remove(goal), &mut own, sort, edits)?,
+            Some(goal) => {
+                let room = told.carried_to.or(told.gone_to);
+                self.whither(own.remove(goal), &mut own, sort, room, edits)?
+            }
             None => None,
         };
         let stands = whither.and_then(|thing| self.knowledge.area_of(thing)).or(told.gone_to);
@@ -448,6 +458,9 @@ impl Resolver<'_, '_> {
             self.face(spot, stands, edits)?;
         }
         let there = self.area_of_there(clause, told);
+        if let (Some(_), Some(words)) = (there, self.from_there(clause)) {
+            edits.push(Edit::deletion(&self.bytes(&words)));
+        }
         // "Put the book there": not to the book.
         let spoken_of = told.place;
         let mut until_word = 0;
@@ -568,6 +581,10 @@ impl Resolver<'_, '_> {
             self.left_standing(&own, edits);
         }
         told.place = whither.or(told.place);
+        if matches!(sort, Sort::Carry | Sort::Put) {
+            told.carried_to =
+                whither.and_then(|place| self.knowledge.area_of(place)).or(told.carried_to);
+        }
         if sort == Sort::Go {
             told.gone_to = whither.and_then(Thing::area).or(told.gone_to);
         }
@@ -628,20 +645,6 @@ impl Resolver<'_, '_> {
         other.filter(|other| *other != last && !fits(&last)).copied()
     }
 
-    /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
-    fn area_of_there(&self, clause: &Clause<'_>, told: &Told) -> Option<AreaId> {
-        let says = |(_, p): &(usize, &Phrase)| matches!(p.person, Some(Mark::There));
-        // «Возьми там тарелку», "bring the plate there"
-        let tells_where = |phrase: &Phrase| {
-            let key = self.sentence.keys[phrase.words.start].as_str();
-            key == "оттуда" || (key == "там" && clause.sort == Sort::Carry)
-        };
-        let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
-            || clause.objects.iter().any(|(_, p)| p.person.is_some() && tells_where(p));
-        let is_said = clause.objects.iter().any(says);
-        told.place.filter(|_| is_said && is_where).and_then(|t| self.knowledge.area_of(t))
-    }
-
     /// «туда»: to what was spoken of.
     fn to_there(&self, thing: Thing, phrase: &Phrase) -> Edit {
         let to = self.knowledge.pick("к ", "to ");
@@ -667,4 +670,6 @@ struct Told {
     place: Option<Thing>,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,
+    /// The room in which what was carried is then.
+    carried_to: Option<AreaId>,
 }

@@ -228,6 +228,13 @@ impl Resolver<'_, '_> {
             }
             // "Both cups", «все три чашки»: there are so many and no more, or it is not known which are meant.
             let these = both.is_some() || noun.all;
+            // «обе спальни», one of which is called so: both of the kind.
+            if found.len() < wanted
+                && let Some(of_kind) = noun.of_kind()
+            {
+                found = self.candidates(&of_kind, &within).map_err(|doubt| (doubt, at.clone()))?;
+                found.retain(|t| self.knowledge.can(sort, *t));
+            }
             return match found.len() {
                 0 => Ok(None),
                 few if few < wanted => Err((Doubt::TooFew { found }, at)),

@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use super::choice::{is_described, with};
-use super::{Edit, Resolver};
+use super::{Clause, Edit, Resolver, Told};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::grammar::{Item, Phrase};
+use crate::question::mark::Mark;
 use crate::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
 use crate::words::{Case, Language};
@@ -332,6 +333,35 @@ impl Resolver<'_, '_> {
             Some(idle) => Err((Doubt::not_understood(&idle.text), self.bytes(words))),
             None => Ok(()),
         }
+    }
+
+    /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
+    pub(super) fn area_of_there(&self, clause: &Clause<'_>, told: &Told) -> Option<AreaId> {
+        let says = |(_, p): &(usize, &Phrase)| matches!(p.person, Some(Mark::There));
+        // «Возьми там тарелку», "bring the plate there"
+        let tells_where = |phrase: &Phrase| {
+            let key = self.sentence.keys[phrase.words.start].as_str();
+            key == "оттуда" || (key == "там" && clause.sort == Sort::Carry)
+        };
+        let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
+            || clause.objects.iter().any(|(_, p)| p.person.is_some() && tells_where(p));
+        let is_said =
+            clause.objects.iter().any(says) && is_where || self.from_there(clause).is_some();
+        told.place.filter(|_| is_said).and_then(|t| self.knowledge.area_of(t))
+    }
+
+    /// "Bring the mug from there": the words, with the preposition.
+    pub(super) fn from_there(&self, clause: &Clause<'_>) -> Option<Range<usize>> {
+        let first = clause.objects.first()?.0;
+        let own = clause.items.get(first..)?;
+        own.iter().find_map(|item| match item {
+            Item::Place { rel: Rel::From, nouns, .. } => {
+                let phrase = nouns.first().filter(|p| matches!(p.person, Some(Mark::There)))?;
+                let link = command::link_before(&self.sentence.keys, phrase.words.start);
+                Some(phrase.words.start - link..phrase.words.end)
+            }
+            _ => None,
+        })
     }
 }
 

@@ -3,16 +3,18 @@
 use std::ops::Range;
 
 use super::Resolver;
-use crate::command;
+use super::open::without;
+use super::terse::Anew;
+use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::question::assemble;
-use crate::question::grammar::{Item, Sentence};
+use crate::question::grammar::{Item, Phrase, Sentence};
 use crate::question::knowledge::Knowledge;
 use crate::question::mark::Mark;
 use crate::question::memory::{Ordered, Waiting};
-use crate::question::query::{Best, Extreme, Head, Noun, Thing};
+use crate::question::query::{Best, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Aside, Asker, Memory, aside, vocabulary};
-use crate::units::name_key;
+use crate::units::{InOrder as _, name_key};
 use crate::words::{Case, word_keys, word_ranges};
 
 impl Ordered {
@@ -24,6 +26,85 @@ impl Ordered {
         }
         text
     }
+
+    /// The command with some of its parts in other words, and nothing that told where its things were.
+    pub(super) fn retold(&self, parts: &[(&Range<usize>, &str)]) -> String {
+        let free = |told: &&Range<usize>| {
+            parts.iter().all(|(at, _)| told.end <= at.start || told.start >= at.end)
+        };
+        let told = self.told.iter().filter(free).map(|told| (told, ""));
+        let mut edits: Vec<(&Range<usize>, &str)> = parts.iter().copied().chain(told).collect();
+        edits.order_by_key(|(at, _)| std::cmp::Reverse(at.start));
+        let mut text = self.text.clone();
+        let mut until = text.len();
+        for (at, said) in edits {
+            if at.end <= until {
+                until = at.start;
+                text.replace_range(at.clone(), said);
+            }
+        }
+        text
+    }
+
+    /// Whether a place of this sort, which alone does not tell where from whither, is whither the command goes: "put it on
+    /// the table. – No, in the cupboard".
+    pub(super) fn goes_where_it_says(&self, rel: Rel) -> bool {
+        let Some(goal) = &self.goal else { return false };
+        let clauses = command::clauses(&self.text);
+        let own = clauses.iter().rev().find(|(start, _)| *start <= goal.start);
+        matches!(rel, Rel::In | Rel::On | Rel::Under | Rel::At)
+            && own.is_some_and(|(_, sort)| matches!(sort, Sort::Put | Sort::Go))
+    }
+
+    /// Whether nothing that words name can be what the command is done to, so that they can only say whither.
+    pub(super) fn is_done_to_none_of(&self, knowledge: &Knowledge<'_>, phrase: &Phrase) -> bool {
+        let Some((object, _)) = &self.object else { return true };
+        let clauses = command::clauses(&self.text);
+        let own = clauses.iter().rev().find(|(start, _)| *start <= object.start);
+        let sort = own.map_or(Sort::Other, |(_, sort)| *sort);
+        let named = knowledge.base(&phrase.noun.head);
+        let bare =
+            phrase.pronoun.is_none() && phrase.person.is_none() && !phrase.noun.head.anything;
+        bare && !named.is_empty() && !named.iter().any(|thing| knowledge.can(sort, *thing))
+    }
+
+    /// The command with another noun behind the preposition that says whither.
+    pub(super) fn with_goal_noun(&self, noun: &str) -> Option<String> {
+        let goal = self.goal.clone()?;
+        let said = &self.text[goal.clone()];
+        let (words, keys) = (word_ranges(said), word_keys(said));
+        let link = (1..keys.len()).rev().find(|&n| command::link_before(&keys, n) == n)?;
+        let mut whole = self.text.clone();
+        whole.replace_range(goal.start + words[link].start..goal.end, noun);
+        Some(whole)
+    }
+
+    /// The command with a verb alone for its own: «Включи лампу. – Нет, выключи».
+    pub(super) fn with_verb(&self, verb: &str) -> Option<String> {
+        let verb = verb.trim_end_matches(['.', '!']);
+        let ([said], [own]) = (&command::verbs_of(verb)[..], &command::verbs_of(&self.text)[..])
+        else {
+            return None;
+        };
+        let alone = *said == (0..verb.len());
+        let sort = |text| command::clauses(text).first().map(|(_, sort)| *sort);
+        let alike = || sort(verb) == sort(&self.text);
+        let mut whole = self.text.clone();
+        whole.replace_range(own.clone(), verb);
+        (alone && alike()).then_some(whole)
+    }
+
+    /// The command with this for where what it is done to is.
+    pub(super) fn with_place(&self, place: &str) -> Option<String> {
+        let (object, _) = self.object.as_ref()?;
+        let mut whole = self.text.clone();
+        match &self.told[..] {
+            [] => whole.insert_str(object.end, &format!(" {place}")),
+            [told] => whole.replace_range(told.clone(), &format!(" {place} ")),
+            _ => return None,
+        }
+        Some(whole)
+    }
 }
 
 impl Asker<'_> {
@@ -34,19 +115,59 @@ impl Asker<'_> {
             let ordered = memory.ordered.as_ref()?;
             let another = self.another(text, ordered, memory);
             let another = another.or_else(|| self.there_too(text, ordered, memory));
-            return another.or_else(|| self.amended(text, ordered, memory));
+            return another.or_else(|| self.amended(text, ordered, memory, false));
         };
         if let Some(narrowed) = self.narrowed(text, waiting) {
             return Some(narrowed);
         }
+        let amended = || self.amended(text, memory.ordered.as_ref()?, memory, true);
+        if self.goes_elsewhere(text, waiting, memory)
+            && let Some(amended) = amended()
+        {
+            return Some(amended);
+        }
         let knowledge = self.knowledge(waiting.language, memory);
-        let Some(chosen) = self.chosen(text, waiting, &knowledge) else {
-            let ordered = memory.ordered.as_ref()?;
-            return self.amended(text, ordered, memory);
-        };
+        let Some(chosen) = self.answered(text, waiting, &knowledge) else { return amended() };
         let mut resumed = waiting.text.clone();
-        resumed.replace_range(waiting.at.clone(), &knowledge.listed(&chosen, Case::Accusative));
+        let case = self.case_at(&resumed, &waiting.at, memory);
+        resumed.replace_range(waiting.at.clone(), &knowledge.listed(&chosen, case));
         Some(resumed)
+    }
+
+    /// What of that which was asked about a reply means: "No, the second one", "not the red one" of two.
+    fn answered(
+        &self,
+        text: &str,
+        waiting: &Waiting,
+        knowledge: &Knowledge<'_>,
+    ) -> Option<Vec<Thing>> {
+        if let Some(chosen) = self.chosen(text, waiting, knowledge) {
+            return Some(chosen);
+        }
+        let anew = Anew::of(text, false).filter(|anew| anew.amends)?;
+        let chosen = self.chosen(anew.said, waiting, knowledge)?;
+        if !anew.is_only_wrong {
+            return Some(chosen);
+        }
+        let left = without(&waiting.candidates, &chosen);
+        (left.len() == 1).then_some(left)
+    }
+
+    /// «В гостиную», "no, to the living room": whither an order goes, where none of what was asked about is such a place.
+    fn goes_elsewhere(&self, text: &str, waiting: &Waiting, memory: &Memory) -> bool {
+        let Some(ordered) = &memory.ordered else { return false };
+        let Some(anew) = Anew::of(text, ordered.goal.is_some()) else { return false };
+        let plain = self.plain(anew.said);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let knowledge = self.knowledge(sentence.language, memory);
+        let resolver = Resolver::reading(&knowledge, &sentence);
+        let items = sentence.items();
+        let [Item::Place { rel, nouns, .. }] = &items[..] else { return false };
+        let [phrase] = &nouns[..] else { return false };
+        let open = || anew.denies && ordered.goes_where_it_says(*rel);
+        let meant = knowledge.base(&phrase.noun.head);
+        resolver.is_whither(*rel, phrase).unwrap_or_else(open)
+            && !meant.iter().any(|thing| waiting.candidates.contains(thing))
     }
 
     /// «А теперь другую», "now the other one": the last command, done to the nearest other thing of that kind.

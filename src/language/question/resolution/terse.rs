@@ -75,10 +75,68 @@ fn is_back(text: &str) -> bool {
     keys.iter().any(back) && keys.iter().all(|key| back(key) || SMALL.contains(&key.as_str()))
 }
 
+/// What a line says anew of an order, behind the words that only say that it does.
+pub(super) struct Anew<'t> {
+    pub(super) said: &'t str,
+    pub(super) amends: bool,
+    /// "No, …": what was said before is not meant.
+    pub(super) denies: bool,
+    /// "Not the red one", and no word of what is meant.
+    pub(super) is_only_wrong: bool,
+}
+
+impl<'t> Anew<'t> {
+    /// None where nothing is said but such words. `has_goal`, whether the order says whither, so that "there too" may be said.
+    pub(super) fn of(text: &'t str, has_goal: bool) -> Option<Self> {
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let mut at = 0;
+        let (mut amends, mut denies, mut is_only_wrong) = (false, false, false);
+        while let Some(key) = keys.get(at) {
+            let small = BEFORE.contains(&key.as_str());
+            let wrong = amends && at > 0 && (WRONG.contains(&key.as_str()) || key == "ее");
+            if !small && !wrong {
+                break;
+            }
+            // "not the red one, the white one": up to the mark all is what was wrong.
+            amends |= small;
+            denies |= matches!(key.as_str(), "нет" | "no");
+            at += 1;
+            if matches!(key.as_str(), "not" | "не") {
+                let mark = (at + 1..words.len()).find(|&n| {
+                    text[words[n - 1].end..words[n].start].contains([',', ';', '.', '–', '—'])
+                });
+                is_only_wrong = mark.is_none();
+                at = mark.unwrap_or(at);
+            }
+        }
+        // "the red one, please"
+        let mut until = words.len();
+        while until > at + 1 && BEFORE.contains(&keys[until - 1].as_str()) {
+            amends |= has_goal && THERE.contains(&keys[until - 1].as_str());
+            until -= 1;
+        }
+        // «И зелёную книгу туда же», "the plate there too"
+        while has_goal && until > at + 1 && THERE.contains(&keys[until - 1].as_str()) {
+            amends = true;
+            until -= 1;
+        }
+        let said = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
+        Some(Self { said, amends, denies, is_only_wrong })
+    }
+}
+
+fn has_clauses(text: &str) -> bool {
+    !command::clauses(text).is_empty()
+}
+
 impl Asker<'_> {
     /// A text without a verb as an order, where it names whither to go or something to be brought.
     pub(super) fn with_verb(&self, text: String, memory: &Memory) -> String {
         if text.trim_end().ends_with('?') || !command::clauses(&text).is_empty() {
+            return text;
+        }
+        // "No, to the bedroom" corrects; where there is nothing to correct, it sends nobody.
+        if Anew::of(&text, false).is_some_and(|anew| anew.denies) {
             return text;
         }
         if is_back(&text) {
@@ -159,58 +217,38 @@ impl Asker<'_> {
         false
     }
 
-    /// The last command with what these words put in the place of what it was done to, or of whither it went.
-    pub(super) fn amended(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
-        let (words, keys) = (word_ranges(text), word_keys(text));
-        let mut at = 0;
-        let mut amends = false;
-        while let Some(key) = keys.get(at) {
-            let small = BEFORE.contains(&key.as_str());
-            let wrong = amends && at > 0 && (WRONG.contains(&key.as_str()) || key == "ее");
-            if !small && !wrong {
-                break;
-            }
-            // "not the red one, the white one": up to the mark all is what was wrong.
-            amends |= small;
-            at += 1;
-            if matches!(key.as_str(), "not" | "не") {
-                let mark = (at + 1..words.len()).find(|&n| {
-                    text[words[n - 1].end..words[n].start].contains([',', ';', '.', '–', '—'])
-                });
-                at = mark.unwrap_or(at);
-            }
-        }
-        // "the red one, please"
-        let mut until = words.len();
-        let kept = ordered.goal.is_some();
-        while until > at + 1 && BEFORE.contains(&keys[until - 1].as_str()) {
-            amends |= kept && THERE.contains(&keys[until - 1].as_str());
-            until -= 1;
-        }
-        // «И зелёную книгу туда же», "the plate there too"
-        while kept && until > at + 1 && THERE.contains(&keys[until - 1].as_str()) {
-            amends = true;
-            until -= 1;
-        }
-        let rest = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
-        if text.trim_end().ends_with('?') || !command::clauses(rest).is_empty() {
+    /// The last command with what these words put in the place of what it was done to, of where that is, or of whither
+    /// it went. One that asked back, and so `is_open`, needs no "no" before them.
+    pub(super) fn amended(
+        &self,
+        text: &str,
+        ordered: &Ordered,
+        memory: &Memory,
+        is_open: bool,
+    ) -> Option<String> {
+        let anew = Anew::of(text, ordered.goal.is_some())?;
+        if anew.is_only_wrong || text.trim_end().ends_with('?') {
             return None;
         }
-        let plain = self.plain(rest);
+        if has_clauses(anew.said) {
+            return ordered.with_verb(anew.said).filter(|_| is_open);
+        }
+        let plain = self.plain(anew.said);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
         let resolver = Resolver::reading(&knowledge, &sentence);
         let items = sentence.items();
         let lone =
             matches!(&items[..], [Item::Noun(p)] if p.noun.head.anything && p.pronoun.is_none());
-        if !amends && !lone {
+        let tells = |item: &Item| matches!(item, Item::Place { .. } | Item::Value(_));
+        if !anew.amends && !lone && !(is_open && items.iter().all(tells)) {
             return None;
         }
         // What is said anew: of what it is done to, of whither.
         let goal = items.iter().position(|item| match item {
-            Item::Place { rel, nouns, .. } => {
-                nouns.first().is_some_and(|p| resolver.is_whither(*rel, p) == Some(true))
-            }
+            Item::Place { rel, nouns, .. } => nouns.first().is_some_and(|p| {
+                resolver.is_whither(*rel, p).unwrap_or_else(|| ordered.goes_where_it_says(*rel))
+            }),
             _ => false,
         });
         let (object, goal) = items.split_at(goal.unwrap_or(items.len()));
@@ -225,19 +263,39 @@ impl Asker<'_> {
             _ => plain.len(),
         };
         let (of_object, whither) = (plain[..starts].trim(), plain[starts..].trim());
+        let are_places =
+            |items: &[Item]| items.iter().all(|item| matches!(item, Item::Place { .. }));
         let said = match object {
             [] => None,
+            // "Go to the kitchen. – No, the bedroom"
             [Item::Noun(phrase), places @ ..]
-                if phrase.person.is_none()
-                    && phrase.pronoun.is_none()
-                    && places.iter().all(|item| matches!(item, Item::Place { .. })) =>
+                if goal.is_empty()
+                    && are_places(places)
+                    && ordered.is_done_to_none_of(&knowledge, phrase) =>
+            {
+                return ordered.with_goal_noun(of_object);
+            }
+            [Item::Noun(phrase), places @ ..]
+                if phrase.person.is_none() && phrase.pronoun.is_none() && are_places(places) =>
             {
                 let kindless = phrase.noun.head.anything;
                 Some(self.amending(of_object, kindless, ordered, sentence.language)?)
             }
             [Item::Value(_)] => Some(self.amending(of_object, true, ordered, sentence.language)?),
+            // "No, from the kitchen"
+            places if are_places(places) && goal.is_empty() => {
+                return ordered.with_place(of_object);
+            }
             _ => return None,
         };
+        // What was carried elsewhere in vain is what it was, wherever it is now.
+        if let (None, Some((at, things)), Some(goal)) = (&said, &ordered.object, &ordered.goal)
+            && ordered.is_resolved
+            && !whither.is_empty()
+        {
+            let names = self.knowledge(ordered.language, memory).listed(things, Case::Accusative);
+            return Some(ordered.retold(&[(at, &names), (goal, whither)]));
+        }
         let mut whole = ordered.text.clone();
         // From the end, so that the places before stay where they are.
         match (&ordered.goal, whither.is_empty()) {

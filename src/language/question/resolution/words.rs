@@ -91,6 +91,39 @@ impl Resolver<'_, '_> {
         freed
     }
 
+    /// "Go to all rooms", «поезжай во все комнаты»: each of them is gone to, as what is visited; with the bytes of the
+    /// prepositions, which are none then.
+    pub(super) fn rounds(
+        &self,
+        items: Vec<Item>,
+        sort: impl Fn(usize) -> Sort,
+    ) -> (Vec<Item>, Vec<Range<usize>>) {
+        let mut links = Vec::new();
+        let of_rounds = |item| match item {
+            Item::Place { rel, mut nouns, either } if nouns.len() == 1 => {
+                let phrase = &nouns[0];
+                let base = self.knowledge.base(&phrase.noun.head);
+                let goes = sort(self.bytes(&phrase.words).start) == Sort::Go
+                    && self.is_whither(rel, phrase) != Some(false)
+                    && phrase.noun.all
+                    && !base.is_empty()
+                    && base.iter().all(|t| t.area().is_some());
+                if !goes {
+                    return Item::Place { rel, nouns, either };
+                }
+                let first = phrase.words.start;
+                let link = command::link_before(&self.sentence.keys, first);
+                if link > 0 {
+                    links.push(self.bytes(&(first - link..first)));
+                }
+                Item::Noun(nouns.remove(0))
+            }
+            item => item,
+        };
+        let items = items.into_iter().map(of_rounds).collect();
+        (items, links)
+    }
+
     /// «лицом к столу», "facing the table": what the robot is to look at.
     pub(super) fn is_faced(&self, phrase: &Phrase) -> bool {
         const FACE: [&str; 5] = ["лицом", "передом", "носом", "повернувшись", "facing"];
