@@ -75,6 +75,7 @@ mod rmf_floors;
 mod robot_facts;
 mod routes;
 mod scenes;
+mod scope;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

@@ -76,7 +76,7 @@ impl Asker<'_> {
         if let Some(query) = self.more_of_counted(text, memory) {
             return Some(query);
         }
-        if let Some(query) = self.sum_of_counted(text, memory) {
+        if let Some(query) = self.altogether(&plain, last, memory) {
             return Some(query);
         }
         if let Some(query) = self.how_many_told(text, memory) {
@@ -123,8 +123,7 @@ impl Asker<'_> {
                 query => query,
             });
         }
-        let query = self.altogether(&key, last).or_else(|| self.counted_of_listed(text, memory));
-        if let Some(query) = query {
+        if let Some(query) = self.counted_of_listed(text, memory) {
             return Some(query);
         }
         if let Some(query) =
@@ -286,7 +285,15 @@ impl Asker<'_> {
         // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
         let is_room = self.is_room(&noun);
         let mut rooms = false;
-        query.each_noun(&mut |old| rooms |= self.is_room(old));
+        query.each_noun(&mut |old| {
+            rooms |= self.is_room(old);
+            // … or of several.
+            let of_rooms = |r: &&mut Restriction| {
+                matches!(r.rel, Rel::In | Rel::On) && r.anchors.iter().all(|a| self.is_room(a))
+            };
+            let places = old.restrictions.iter_mut().filter(of_rooms).filter(|_| is_room);
+            places.for_each(|place| place.anchors.truncate(1));
+        });
         // A room may narrow several nouns of the question: all that mean what is replaced.
         let mut replaced: Option<Noun> = None;
         // "What colour is the floor in the kitchen? And the walls?": those of the kitchen.
@@ -297,6 +304,14 @@ impl Asker<'_> {
         let of_room = |old: &Noun| surface(&noun) && surface(old);
         let sought = query.sought().is_some();
         let keeps = |old: &Noun| (sought || of_room(old)) && noun.restrictions.is_empty();
+        // "How many of them are books? And plates?": of them.
+        let told = |old: &Noun| {
+            let knowledge = self.knowledge(sentence.language, memory);
+            let list = knowledge.list_with(old.head.things.as_deref()?)?;
+            let anchors = vec![Noun::of(list)];
+            Some(Restriction { rel: Rel::From, anchors, negated: false })
+        };
+        let selects = matches!(last, Query::Count(_) | Query::Find(_));
         query.each_noun(&mut |old| {
             let fits = match &replaced {
                 Some(first) => is_room && rooms && old == first,
@@ -310,8 +325,10 @@ impl Asker<'_> {
                 let placed = |r: &&Restriction| stays && (is_place(r) || own && r.rel == Rel::Of);
                 let place: Vec<Restriction> =
                     old.restrictions.iter().filter(placed).cloned().collect();
+                let list = told(old).filter(|_| selects && !noun.head.kinds.is_empty());
                 *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
                 old.restrictions.extend(place);
+                old.restrictions.extend(list);
             }
         });
         replaced.map(|_| query)
@@ -335,60 +352,6 @@ impl Asker<'_> {
             repeat_with(sentence, last, &mut noun);
         }
         Some(noun)
-    }
-
-    /// «А всего?», "And in the whole flat?": the last question without its place.
-    fn altogether(&self, key: &str, last: &Query) -> Option<Query> {
-        const ALL: [&str; 28] = [
-            "итого",
-            "итого сколько",
-            "сколько итого",
-            "сколько их всего",
-            "всего",
-            "сколько всего",
-            "во всем доме",
-            "во всей квартире",
-            "во всем здании",
-            "во всех комнатах",
-            "в целом",
-            "вообще",
-            "вместе",
-            "в общем",
-            "на всей карте",
-            "in total",
-            "in all",
-            "altogether",
-            "overall",
-            "how many in total",
-            "how many in all",
-            "in the whole house",
-            "in the whole flat",
-            "in the whole apartment",
-            "in the whole building",
-            "in the house",
-            "in the entire house",
-            "everywhere",
-        ];
-        let words = key.split(|c: char| !c.is_alphanumeric());
-        let words: Vec<&str> =
-            words.filter(|w| !["", "а", "и", "and", "what", "about"].contains(w)).collect();
-        if !ALL.contains(&words.join(" ").as_str()) {
-            return None;
-        }
-        let mut query = last.clone();
-        let asked = match &mut query {
-            Query::Find(asked)
-            | Query::Count(asked)
-            | Query::Where(asked)
-            | Query::Serving { of: asked, .. } => asked,
-            Query::Exists { what, .. } => what.first_mut()?,
-            _ => return None,
-        };
-        if asked.head.anything || asked.restrictions.is_empty() {
-            return None;
-        }
-        asked.restrictions.clear();
-        Some(query)
     }
 
     /// Makes a description one of a kind, whichever of the kind it was; false where it is of none.

@@ -5,14 +5,18 @@
 use std::borrow::Cow;
 
 use super::constructions;
+use super::mark::{Mark, Pronoun};
 use super::rule::{Rule, Words};
+use super::vocabulary;
 use crate::words::Language;
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let rules: [Rule; 32] = [
+    let rules: [Rule; 34] = [
         storey_of,
         of_this,
+        as_listed,
+        among,
         everything_but,
         numbered,
         locked,
@@ -322,6 +326,31 @@ fn of_this(words: &Words<'_>) -> Option<String> {
         let them = Language::of(words.text).pick("из них", "of them");
         alone.then(|| words.replaced(vec![(at..ends, them.to_owned())]))
     })
+}
+
+/// "Which of the books you listed is red?": of these books.
+fn as_listed(words: &Words<'_>) -> Option<String> {
+    let names = |noun: &usize| {
+        let said = vocabulary::longest(&words.keys[*noun..=*noun]);
+        said.is_none_or(|(_, mark)| mark == Mark::One)
+    };
+    let (noun, taken) = (0..words.keys.len()).filter(names).find_map(|noun| {
+        Some((noun, vocabulary::taken_by(Mark::Listed, words.keys.get(noun + 1..)?)?))
+    })?;
+    let article = noun.checked_sub(1).filter(|n| words.is(*n, &["the", "all"]));
+    let named = words.text.get(words.at[noun].clone())?;
+    let those = format!("{} {named}", Language::of(named).pick("эти", "these"));
+    Some(words.replaced(vec![(article.unwrap_or(noun)..noun + 1 + taken, those)]))
+}
+
+/// "Are there books among them?", «Есть ли среди этих вещей книги?»: of them. Among the chairs is a place.
+fn among(words: &Words<'_>) -> Option<String> {
+    let among = words.find(&["среди", "among", "amongst"])?;
+    let told = words.keys.get(among + 1..)?;
+    let pronoun = matches!(vocabulary::longest(told), Some((_, Mark::Pronoun(Pronoun::They))));
+    let of = Language::of(&words.keys[among]).pick("из", "of");
+    (pronoun || vocabulary::taken_by(Mark::These, told).is_some())
+        .then(|| words.replaced(vec![(among..among + 1, of.to_owned())]))
 }
 
 /// "What else is there but an apple?", "all lamps but not the lamp on the desk": except the apple.

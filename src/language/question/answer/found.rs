@@ -460,10 +460,15 @@ impl Knowledge<'_> {
                 false => String::new(),
             };
             let are = |number| if number == 1 { "is" } else { "are" };
-            let of_told = noun.head.things.is_some() && !noun.filters.is_empty();
+            let told = noun.head.things.is_some();
+            let of_told = told && (!noun.filters.is_empty() || self.list_with(&found).is_some());
             match (self.is_russian(), place.is_empty()) {
-                (true, true) if of_told => format!("из них {counted}{list}"),
+                (false, true) if told && noun.sums() => {
+                    format!("there {} {counted} in all{list}", are(number))
+                }
+                (true, true) if of_told && !noun.sums() => format!("из них {counted}{list}"),
                 (false, true) if of_told => format!("among them {} {counted}{list}", are(number)),
+                (true, true) if told => format!("всего {counted}{list}"),
                 (true, true) => format!("на карте {counted}{list}"),
                 (true, false) if self.is_having(noun) => format!("{counted} {place}{list}"),
                 (true, false) => format!("{place} {counted}{list}"),
@@ -577,7 +582,13 @@ impl Knowledge<'_> {
                 some => some,
             };
             bearing.truncate(2);
-            if let (true, [only]) = (found.len() > 1, &bearing[..]) {
+            let bears_all = |a: &Thing| {
+                let related = self.related(restriction.rel, *a);
+                things.iter().all(|t| related.contains(t))
+            };
+            if let (true, [only]) = (found.len() > 1, &bearing[..])
+                && (restriction.rel != Rel::On || bears_all(only))
+            {
                 let head = Head { things: Some(vec![*only]), ..Head::default() };
                 *anchor = Noun { head, ..Noun::default() };
             }

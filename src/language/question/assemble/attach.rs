@@ -94,7 +94,13 @@ impl Frame<'_, '_> {
         let nearest = |mark: &Mark| {
             matches!(mark, Mark::Nearer(_) | Mark::Best(Extreme::Nearest | Extreme::Farthest))
         };
+        // "How many of them are keys?"
+        let of_several = spot.nouns.iter().any(|noun| {
+            let told = noun.head.things.as_deref().unwrap_or_default();
+            told.len() > 1 && told.iter().all(|thing| thing.replica().is_some())
+        });
         if matches!(spot.rel, Rel::From | Rel::To | Rel::Of)
+            && !of_several
             && self.is_key(noun)
             && !self.marks.iter().any(|(mark, _)| nearest(mark))
         {

@@ -324,7 +324,8 @@ impl Frame<'_, '_> {
         }
         // "Is any door open?" asks whether there is an open one.
         // "Is any of them red?"
-        let of_those = subject.plural && subject.head.things.is_some() && self.has(Mark::A);
+        let of_those = subject.head.things.is_some()
+            && (subject.plural && self.has(Mark::A) || subject.indefinite);
         let general = subject.head.named.is_empty() && subject.head.things.is_none();
         if (subject.indefinite && general) || of_those {
             // "Any chairs that are not white?" asks for others.
@@ -350,6 +351,17 @@ impl Frame<'_, '_> {
                     Claim::Value(filter) => noun.filters.push(filter.clone()),
                     Claim::Size(size) => noun.sizes.push(*size),
                     Claim::Related(place) => noun.restrictions.push(place.clone()),
+                    // "Are any of them books?": whether there are books among them.
+                    Claim::Kind(kind) if of_those => {
+                        let anchors = vec![Noun { indefinite: false, ..subject.clone() }];
+                        noun.head = kind.head.clone();
+                        noun.text = kind.text.clone();
+                        noun.restrictions.push(Restriction {
+                            rel: Rel::From,
+                            anchors,
+                            negated: false,
+                        });
+                    }
                     Claim::Kind(_) => {
                         return Some(Query::Holds { subject, claims, denial: self.negated.into() });
                     }

@@ -2,9 +2,10 @@
 //!
 //! Invariant: what points means what was spoken of, never all that there is.
 
-use super::{Sentence, Tok};
+use super::{Sentence, Tok, Token, Tokens};
 use crate::question::mark::Mark;
-use crate::question::query::Noun;
+use crate::question::query::{Noun, Rel};
+use crate::question::vocabulary;
 use crate::words::word_keys;
 
 /// Words that stand for a noun and point at one of those that were spoken of.
@@ -25,6 +26,19 @@ pub(in super::super) fn points(noun: &Noun) -> bool {
     noun.head.anything && (alone || keys.last().is_some_and(said))
 }
 
+/// Whether a description shows several of those that were told: "these books", «перечисленные книги».
+pub(in super::super) fn are_shown(noun: &Noun) -> bool {
+    let keys = word_keys(&noun.text);
+    let mut words = &keys[..];
+    // "One of these books", «все эти книги»
+    while let Some((taken, Mark::A | Mark::All | Mark::Each | Mark::Link(Rel::Of | Rel::From))) =
+        vocabulary::longest(words)
+    {
+        words = &words[taken..];
+    }
+    vocabulary::taken_by(Mark::These, words).is_some_and(|taken| taken < words.len())
+}
+
 /// "Other", a form of «другой»: «ещё» is other, and stands for no noun.
 pub(super) fn stands_for_one(word: &str) -> bool {
     let russian = ["друг", "втор"].iter().any(|stem| word.starts_with(stem)) && word != "друг";
@@ -32,6 +46,25 @@ pub(super) fn stands_for_one(word: &str) -> bool {
 }
 
 impl Sentence<'_> {
+    /// What follows "these things", where such words stand: they are "they", whatever they are.
+    pub(super) fn after_these_things<'a>(&self, input: Tokens<'a>) -> Option<Tokens<'a>> {
+        let [shown, thing, after @ ..] = input.0 else { return None };
+        let words = self.keys.get(shown.from as usize..shown.to as usize)?;
+        let shows = shown.kind == Tok::Mark(Mark::The)
+            && vocabulary::taken_by(Mark::These, words) == Some(words.len());
+        let is_thing = match thing.kind {
+            Tok::Noun(n) => self.nouns[n as usize].is_thing,
+            Tok::Mark(Mark::One) => true,
+            _ => false,
+        };
+        // "Those things on the table", «те вещи, что на столе» are told by the place.
+        let placed = matches!(
+            after,
+            [Token { kind: Tok::Mark(Mark::Link(_) | Mark::What | Mark::Which), .. }, ..]
+        );
+        (shows && is_thing && !placed).then_some(Tokens(after))
+    }
+
     /// Whether a "this" or "those" stands without a noun: it points at what was spoken of.
     pub(in super::super) fn points(&self) -> bool {
         const THESE: [&str; 6] = ["this", "that", "these", "those", "это", "эти"];

@@ -454,6 +454,7 @@ impl<'t> Sentence<'t> {
                         found.is_area |= lexicon.is_area(kind);
                         let extension = lexicon.kind(kind).extension;
                         found.is_storey |= extension == Extension::Storeys;
+                        found.is_thing |= extension == Extension::Things;
                         found.is_general |= matches!(
                             extension,
                             Extension::Storeys
