@@ -12,7 +12,8 @@ use crate::words::Language;
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let rules: [Rule; 34] = [
+    let rules: [Rule; 35] = [
+        named_by_number,
         storey_of,
         of_this,
         as_listed,
@@ -76,6 +77,18 @@ fn neither(words: &Words<'_>) -> Option<String> {
     let neither = words.find(&["neither"])?;
     let nor = words.find(&["nor"]).filter(|nor| *nor > neither)?;
     // "… are neither apples nor plums" says nothing of what they have.
+    // "Neither in the kitchen nor in the hall": not in the one, and not in the other.
+    let places = |n: usize| {
+        words
+            .keys
+            .get(n + 1..)
+            .and_then(vocabulary::longest)
+            .is_some_and(|(_, mark)| matches!(mark, Mark::Link(_)))
+    };
+    if places(neither) && places(nor) {
+        let not = |n: usize, by: &str| (n..n + 1, by.to_owned());
+        return Some(words.replaced(vec![not(neither, "not"), not(nor, "and not")]));
+    }
     let has = neither.checked_sub(1).filter(|n| words.is(*n, &["has", "have", "contains", "with"]));
     let without = has?..neither + 1;
     Some(words.replaced(vec![(without, "without".to_owned()), (nor..nor + 1, "or".to_owned())]))
@@ -259,6 +272,32 @@ fn beside_it(words: &Words<'_>) -> Option<String> {
     Some(words.replaced(vec![(beside - 2..beside + 1, format!("рядом с {it}"))]))
 }
 
+/// «Назови по одной вещи из каждой комнаты», "Tell me two things in each room": so many are named.
+fn named_by_number(words: &Words<'_>) -> Option<String> {
+    const ONE: [&str; 5] = ["одной", "одному", "одну", "один", "одно"];
+    let told = vocabulary::longest(&words.keys);
+    let listed = match told {
+        Some((taken, Mark::List)) => taken,
+        _ if words.is(0, &["tell"]) && words.is(1, &["me"]) => 2,
+        _ => return None,
+    };
+    let each = usize::from(words.is(listed, &["по"]));
+    let number = words.keys.get(listed + each)?;
+    let one = ONE.contains(&number.as_str());
+    let by = match one {
+        true => "одна",
+        false => words.text.get(words.at[listed + each].clone())?,
+    };
+    let counts = one || number == "one" || crate::question::grammar::number_of(number).is_some();
+    let said = match told {
+        Some((_, Mark::List)) => words.part(0..listed)?,
+        _ => "Name",
+    };
+    counts
+        .then(|| words.replaced(vec![(0..listed + each + 1, format!("{said} {by}"))]))
+        .filter(|text| text != words.text)
+}
+
 /// «Какая дверь ведёт наружу?»: to the street.
 fn outwards(words: &Words<'_>) -> Option<String> {
     let out = words.find(&["наружу"])?;
@@ -320,6 +359,10 @@ fn of_this(words: &Words<'_>) -> Option<String> {
         let taken = this.split(' ').count();
         let ends = at + taken;
         // "of this room" names its own.
+        // «Что из этого есть на кухне: диван, кровать?»: of what is listed behind.
+        if words.text.contains(':') {
+            return Some(words.replaced(vec![(at..ends, String::new())]));
+        }
         let alone = words.is(0, &["сколько", "какие", "что"])
             || ends == words.keys.len()
             || words.is(ends, &["is", "are", "can", "were"]);

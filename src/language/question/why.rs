@@ -10,7 +10,7 @@ use super::lexicon::lower_first;
 use super::query::{Noun, Passing, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
 use crate::map::Entity;
-use crate::units::Lengths;
+use crate::units::{AreaId, Lengths};
 use crate::words::length;
 
 /// Measurements said in one sentence, at most.
@@ -23,6 +23,11 @@ impl Knowledge<'_> {
             return Ok(draft);
         }
         let facts = match (about, &self.memory.said, &self.memory.query) {
+            (Some(Query::Passing { from, to, asks: Passing::Directly, .. }), ..)
+                if self.are_apart(from.as_ref(), to)? =>
+            {
+                return self.not_joined(from.as_ref(), to);
+            }
             (Some(query), ..) => {
                 let answer = self.answer(query)?;
                 if answer.facts.is_empty() {
@@ -84,11 +89,22 @@ impl Knowledge<'_> {
         }
     }
 
+    /// The rooms of two ends.
+    fn rooms_at(&self, from: Option<&Noun>, to: &Noun) -> Result<Option<[AreaId; 2]>, Doubt> {
+        let start = from.map_or(Ok(Thing::Robot), |noun| self.one(noun))?;
+        let (from, to) = (self.rooms_of(start), self.rooms_of(self.one(to)?));
+        Ok(from.first().zip(to.first()).map(|(from, to)| [*from, *to]))
+    }
+
+    /// Whether neither a door nor a passage joins the rooms of two ends.
+    fn are_apart(&self, from: Option<&Noun>, to: &Noun) -> Result<bool, Doubt> {
+        let rooms = self.rooms_at(from, to)?;
+        Ok(rooms.is_some_and(|[a, b]| a != b && self.openings_between(a, b).next().is_none()))
+    }
+
     /// "Why can't I go there directly?": no door joins the two.
     fn not_joined(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
-        let start = from.map_or(Ok(Thing::Robot), |noun| self.one(noun))?;
-        let rooms = [self.rooms_of(start), self.rooms_of(self.one(to)?)];
-        let (&[a, ..], &[b, ..]) = (&rooms[0][..], &rooms[1][..]) else {
+        let Some([a, b]) = self.rooms_at(from, to)? else {
             return Ok(self.why_plain(self.memory.said.as_deref().unwrap_or_default(), &[]));
         };
         let place = self.place(Rel::Between, &[a, b].map(|id| Thing::Entity(Entity::Area(id))));

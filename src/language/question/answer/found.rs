@@ -62,8 +62,8 @@ impl Knowledge<'_> {
         if let Some(text) = self.neighbours(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
         }
-        if let Some(text) = self.found_by_each(noun)? {
-            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        if let Some(draft) = self.found_by_each(noun)? {
+            return Ok(Draft { facts, ..draft });
         }
         if let Some(text) = self.out_of_sight(noun, &found) {
             return Ok(Draft::new(Said::Unknown, text));
@@ -513,26 +513,45 @@ impl Knowledge<'_> {
         let all = (0..what.len()).all(have);
         // «Нет ни кровати, ни дивана?» denies each of them.
         let holds = if either || denial.is_taken() { any } else { all };
-        let mut parts: Vec<String> = Vec::new();
-        for (noun, things) in what.iter().zip(&found) {
-            parts.push(self.existing(noun, things));
+        // What bears out the answer is told first: "Yes, there is a mug, but there are no cups".
+        let mut order: Vec<usize> = (0..what.len()).collect();
+        order.order_by_key(|n| have(*n) != holds);
+        let mut parts: Vec<(bool, String)> = Vec::new();
+        for n in order {
+            parts.push((have(n), self.existing(&what[n], &found[n])));
         }
         if let [noun] = what
             && !any
             && let Some(within) = self.within_instead(noun)
         {
-            parts.push(within);
+            parts.push((true, within));
         }
-        let join = self.pick(", но ", ", but ");
-        let join = if all || (!any && what.len() > 1) { self.pick(", и ", " and ") } else { join };
-        let text = parts.join(join);
+        let (mut text, mut before) = (String::new(), None);
+        for (is_there, part) in parts {
+            match before {
+                None => {}
+                Some(same) if same == is_there => text.push_str(self.pick(", и ", " and ")),
+                Some(_) => text.push_str(self.pick(", но ", ", but ")),
+            }
+            text.push_str(&part);
+            before = Some(is_there);
+        }
         // «В комнате нет стула?» is answered by «Да, нет» only in words that cannot mislead.
         let yes = holds != denial.is_taken();
-        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let head = match (denial, yes) {
+            (Denial::Unasked, _) => "",
+            (_, true) => self.pick("да, ", "yes, "),
+            (_, false) => self.pick("нет, ", "no, "),
+        };
         let facts = what.iter().zip(&found).flat_map(|(n, f)| self.facts_of(n, f)).collect();
         let things: Vec<Thing> = found.concat();
         let anchors = self.anchor_things(&what[0]);
-        let said = if yes { Said::Yes } else { Said::No };
+        let said = match (denial, yes) {
+            (Denial::Unasked, true) => Said::Found,
+            (Denial::Unasked, false) => Said::Nothing,
+            (_, true) => Said::Yes,
+            (_, false) => Said::No,
+        };
         Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
             .about(&anchors))
     }

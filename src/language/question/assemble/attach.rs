@@ -49,10 +49,41 @@ impl Frame<'_, '_> {
         self.with_best(noun)
     }
 
+    /// Whether a noun is of rooms, or of what belongs to one as a way out of it does: "the key from the lab".
+    fn is_led_through(&self, noun: &Noun) -> bool {
+        let windows = self.is_kind(noun, |e| *e == Extension::Windows);
+        self.is_area(noun) || self.is_doors(noun) || self.is_exits(noun) || self.is_key(noun) || windows
+    }
+
+    /// "A door from the kitchen to the bedroom" joins the two.
+    pub(super) fn joining(&self, noun: &mut Noun) {
+        if let Some(between) = self.joined_by(noun, &noun.restrictions) {
+            noun.restrictions = vec![between];
+        }
+    }
+
+    /// What is said of a door by all that it leads from and to, where these are two rooms.
+    pub(super) fn joined_by(&self, door: &Noun, ends: &[Restriction]) -> Option<Restriction> {
+        let room = |end: &Restriction| {
+            let leads = matches!(end.rel, Rel::From | Rel::Of | Rel::To | Rel::In | Rel::On);
+            let one = matches!(&end.anchors[..], [room] if self.is_area(room) && !room.all);
+            leads && one && !end.negated
+        };
+        let [from, to] = ends else { return None };
+        let joins = self.is_doors(door) && ends.iter().all(room) && from.anchors != to.anchors;
+        let anchors = [&from.anchors[..], &to.anchors[..]].concat();
+        joins.then_some(Restriction { rel: Rel::Between, anchors, negated: false })
+    }
+
     /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
     pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
         if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
             return;
+        }
+        // "A thing from the kitchen" is in it; a door leads from it.
+        let rooms = spot.nouns.iter().all(|room| self.is_area(room));
+        if spot.rel == Rel::From && rooms && !self.is_led_through(noun) {
+            return self.attach(noun, &Spot { rel: Rel::In, ..spot.clone() });
         }
         // «что-нибудь из еды»: what is of a class.
         let class = |class: &Noun| {

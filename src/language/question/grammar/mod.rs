@@ -379,59 +379,6 @@ impl<'t> Sentence<'t> {
         Ok(self.relative(rest, phrase))
     }
 
-    fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
-        let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
-        // "Any of these things"
-        let any = || {
-            let (after, _) = self.mark(input, |m| m == Mark::A).ok()?;
-            self.after_these_things(after)
-        };
-        let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
-            Err(_) => match self.after_these_things(input).or_else(|| any()) {
-                Some(rest) => (rest, Mark::Pronoun(Pronoun::They)),
-                None => self.mark(input, is_person)?,
-            },
-            // "all of them"; "Are there pillows on both?"
-            Ok((after, _)) if let Some(rest) = self.after_these_things(after) => {
-                (rest, Mark::Pronoun(Pronoun::They))
-            }
-            Ok((after, _)) => match self.mark(after, |m| matches!(m, Mark::Pronoun(_))) {
-                Err(_) if self.is_both(input.0[0].from) && !begins_noun(after) => {
-                    (after, Mark::Pronoun(Pronoun::They))
-                }
-                found => found?,
-            },
-        };
-        let last = input.0[input.0.len() - rest.0.len() - 1];
-        let words = input.0[0].from as usize..last.to as usize;
-        let indefinite = any().is_some();
-        let text = self.said(&words).to_owned();
-        let noun = Noun { text, indefinite, ..Noun::default() };
-        let pronoun = match mark {
-            Mark::Pronoun(pronoun) => Some(pronoun),
-            _ => None,
-        };
-        let person = pronoun.is_none().then_some(mark);
-        let only_plural_nominative = false;
-        Ok((
-            rest,
-            Phrase {
-                noun,
-                words,
-                pronoun,
-                person,
-                nominative: true,
-                cases: Vec::new(),
-                only_plural_nominative,
-            },
-        ))
-    }
-
-    fn is_both(&self, word: u32) -> bool {
-        ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"]
-            .contains(&self.keys[word as usize].as_str())
-    }
-
     fn described<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
         let (rest, parts) = many0(|i| self.modifier(i)).parse(input)?;
         let (rest, head, owner) = self.head(rest)?;
@@ -519,6 +466,13 @@ impl<'t> Sentence<'t> {
             }
         }
         noun.rank = storey.or(noun.rank);
+        // "Name one thing in the kitchen": one will do.
+        let before = self.tokens.iter().rev().find(|t| t.to <= input.0[0].from);
+        let is_listed = matches!(before.map(|t| t.kind), Some(Tok::Mark(Mark::List)));
+        if is_listed && noun.indefinite && !noun.plural {
+            noun.count = noun.count.or(Some(1));
+            only_plural_nominative = false;
+        }
         // «вторая полка снизу»
         if let (Some(_), None, Some((extreme, after))) =
             (noun.rank.filter(|_| storey.is_none()), &noun.best, self.counted_from(rest))

@@ -2,8 +2,8 @@
 //!
 //! Invariant: what points means what was spoken of, never all that there is.
 
-use super::{Sentence, Tok, Token, Tokens};
-use crate::question::mark::Mark;
+use super::{Parsed, Phrase, Sentence, Tok, Token, Tokens, begins_noun};
+use crate::question::mark::{Mark, Pronoun};
 use crate::question::query::{Noun, Rel};
 use crate::question::vocabulary;
 use crate::words::word_keys;
@@ -110,6 +110,75 @@ impl Sentence<'_> {
             );
             pointed && !tells && token.kind == Tok::Mark(Mark::The) && ends
         })
+    }
+
+    /// A pronoun, the robot or who asks; "these things" are "they".
+    pub(super) fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
+        // "Any of these things"
+        let any = || {
+            let (after, _) = self.mark(input, |m| m == Mark::A).ok()?;
+            self.after_these_things(after)
+        };
+        let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
+            Err(_) => match self.after_these_things(input).or_else(|| any()) {
+                Some(rest) => (rest, Mark::Pronoun(Pronoun::They)),
+                None => self.mark(input, is_person)?,
+            },
+            // "all of them"; "Are there pillows on both?"
+            Ok((after, _)) if let Some(rest) = self.after_these_things(after) => {
+                (rest, Mark::Pronoun(Pronoun::They))
+            }
+            Ok((after, _)) => match self.mark(after, |m| matches!(m, Mark::Pronoun(_))) {
+                Err(_)
+                    if self.is_both(input.0[0].from)
+                        && !begins_noun(after)
+                        && !self.joins_rooms(after) =>
+                {
+                    (after, Mark::Pronoun(Pronoun::They))
+                }
+                found => found?,
+            },
+        };
+        let last = input.0[input.0.len() - rest.0.len() - 1];
+        let words = input.0[0].from as usize..last.to as usize;
+        let indefinite = any().is_some();
+        let text = self.said(&words).to_owned();
+        let noun = Noun { text, indefinite, ..Noun::default() };
+        let pronoun = match mark {
+            Mark::Pronoun(pronoun) => Some(pronoun),
+            _ => None,
+        };
+        let person = pronoun.is_none().then_some(mark);
+        let only_plural_nominative = false;
+        Ok((
+            rest,
+            Phrase {
+                noun,
+                words,
+                pronoun,
+                person,
+                nominative: true,
+                cases: Vec::new(),
+                only_plural_nominative,
+            },
+        ))
+    }
+
+    fn is_both(&self, word: u32) -> bool {
+        ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"]
+            .contains(&self.keys[word as usize].as_str())
+    }
+
+    /// "Both in the kitchen and in the hall": of rooms, and not of those that were told.
+    fn joins_rooms(&self, after: Tokens<'_>) -> bool {
+        let and = |t: &Token| t.kind == Tok::Mark(Mark::And);
+        match after.0 {
+            [Token { kind: Tok::Mark(Mark::Link(_)), .. }, rest @ ..] => {
+                self.begins_with_area(rest) && rest.iter().any(and)
+            }
+            _ => false,
+        }
     }
 
     /// «те, что на комоде», «та, которая у окна»: a pointing word in the place of a noun, told by a clause.
