@@ -76,6 +76,7 @@ mod robot_facts;
 mod routes;
 mod scenes;
 mod scope;
+mod several_places;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

@@ -52,7 +52,11 @@ impl Frame<'_, '_> {
     /// Whether a noun is of rooms, or of what belongs to one as a way out of it does: "the key from the lab".
     fn is_led_through(&self, noun: &Noun) -> bool {
         let windows = self.is_kind(noun, |e| *e == Extension::Windows);
-        self.is_area(noun) || self.is_doors(noun) || self.is_exits(noun) || self.is_key(noun) || windows
+        self.is_area(noun)
+            || self.is_doors(noun)
+            || self.is_exits(noun)
+            || self.is_key(noun)
+            || windows
     }
 
     /// "A door from the kitchen to the bedroom" joins the two.
