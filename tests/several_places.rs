@@ -233,3 +233,93 @@ fn a_yes_is_followed_by_what_is_there() {
         }
     }
 }
+
+/// "Which rooms have a wooden floor?": those of which it is told one by one; where it is told of some only, not "none".
+#[test]
+fn rooms_with_a_surface_are_those_whose_surface_is_so() {
+    let mut asked = 0;
+    for map in ["../shared/data/procthor/house_3.json", "../shared/data/procthor/house_7.json"] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().expect("there is a map");
+        let surfaces = [("floor", "is", "a {} floor"), ("walls", "are", "{} walls")];
+        for (surface, be, described) in surfaces {
+            let told = |room: &str, what: &str| {
+                let answer = ask(&engine, &what.replace("{}", room));
+                answer
+                    .text
+                    .rsplit_once(" is ")
+                    .map(|(_, value)| value.trim_end_matches('.').to_owned())
+            };
+            for what in [
+                format!("What colour {be} the {surface} in the {{}}?"),
+                format!("What {be} the {surface} of the {{}} made of?"),
+            ] {
+                let each: Vec<(&String, Option<String>)> =
+                    world.areas.values().map(|a| (&a.name, told(&a.name_en, &what))).collect();
+                let values: BTreeSet<&String> =
+                    each.iter().filter_map(|(_, v)| v.as_ref()).collect();
+                for value in values {
+                    let own = |(name, of): &(&String, Option<String>)| {
+                        (of.as_ref() == Some(value)).then(|| (*name).clone())
+                    };
+                    let rooms: BTreeSet<String> = each.iter().filter_map(own).collect();
+                    let question = format!("Which rooms have {}?", described.replace("{}", value));
+                    let answer = ask(&engine, &question);
+                    assert_eq!(names(&answer), rooms, "{question}: {}", answer.text);
+                    asked += 1;
+                }
+            }
+        }
+        for question in ["Which rooms have purple walls?", "Which rooms have purple floors?"] {
+            if let Ok(answer) = engine.ask(question, &mut Memory::default()).unwrap() {
+                assert!(answer.symbols.is_empty(), "{question}: {}", answer.text);
+            }
+        }
+    }
+    assert!(asked > 4, "{asked}");
+}
+
+/// What is told in English has no Russian word on a map whose names have both languages.
+#[test]
+fn what_is_told_in_english_is_english() {
+    let is_russian = |text: &str| {
+        text.chars()
+            .any(|c| ('а'..='я').contains(&c.to_ascii_lowercase()) || ('А'..='Я').contains(&c))
+    };
+    let mut asked = 0;
+    for map in MAPS {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().expect("there is a map");
+        let things = world.replicas.values().map(|replica| &replica.name_en).step_by(5);
+        let areas = world.areas.values().map(|area| &area.name_en);
+        let doors = world.doors.values().map(|door| &door.name_en);
+        let names: Vec<&String> = things.chain(areas).chain(doors).collect();
+        for pair in names.windows(2) {
+            let [one, other] = [pair[0], pair[1]];
+            for question in [
+                format!("Where is the {one}?"),
+                format!("Describe the {one}"),
+                format!("What do the {one} and the {other} have in common?"),
+                format!("How do the {one} and the {other} differ?"),
+                format!("What is the {one} made of?"),
+                format!("What are the walls of the {one} made of?"),
+                format!("What colour is the floor in the {one}?"),
+                format!("Why is the {one} next to the {other}?"),
+                format!("How do I get from the {one} to the {other}?"),
+                format!("Is the {one} open?"),
+                format!("Open the {one}"),
+                format!("Put the {one} on the {other}"),
+                format!("Switch the {one} on"),
+            ] {
+                let told =
+                    match engine.ask(&question, &mut Memory::default()).expect("there is a map") {
+                        Ok(answer) => answer.text,
+                        Err(doubt) => doubt.text,
+                    };
+                assert!(!is_russian(&told), "{question}: {told}");
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 300, "{asked}");
+}

@@ -455,7 +455,7 @@ impl Knowledge<'_> {
                 if !text.is_empty() {
                     break;
                 }
-                if self.is_floor(anchor) {
+                if self.is_floor(anchor) && restriction.rel != Rel::Has {
                     text = self.pick("на полу", "on the floor").to_owned();
                     continue;
                 }

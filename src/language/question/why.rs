@@ -398,17 +398,22 @@ impl Knowledge<'_> {
     }
 
     fn premise(&self, premise: &Premise) -> String {
+        let value = |value: &Value| match value {
+            Value::Symbol(symbol) => format!("\"{}\"", self.symbol_words(symbol)),
+            number => number.to_string(),
+        };
         let show = |values: &[Option<Value>]| {
-            let text = |v: &Option<Value>| v.as_ref().map_or("_".to_owned(), value);
+            let text = |v: &Option<Value>| v.as_ref().map_or("_".to_owned(), &value);
             values.iter().map(text).collect::<Vec<_>>().join(", ")
         };
         match premise {
             Premise::Fact(n) => format!("#{n}"),
             Premise::Pattern { name, values } => {
                 let what = match values.iter().cloned().collect::<Option<Vec<Value>>>() {
-                    Some(values) => self
-                        .measurement(name, &values)
-                        .unwrap_or_else(|| tuple(&self.shown(name), &values)),
+                    Some(values) => self.measurement(name, &values).unwrap_or_else(|| {
+                        let values: Vec<String> = values.iter().map(&value).collect();
+                        format!("{}({})", self.shown(name), values.join(", "))
+                    }),
                     None => format!("{}({})", self.shown(name), show(values)),
                 };
                 match self.is_russian() {
@@ -429,7 +434,7 @@ impl Knowledge<'_> {
                 }
             },
             Premise::Counted { text, value: found } => {
-                let found = found.as_ref().map(value).unwrap_or_default();
+                let found = found.as_ref().map(&value).unwrap_or_default();
                 format!("{text} = {found}")
             }
             Premise::Unknown { text } => text.clone(),
