@@ -36,6 +36,7 @@ mod frames;
 mod furniture;
 mod generated_worlds;
 mod going_on;
+mod gone_on;
 mod guides;
 mod hostile;
 mod ifc;

@@ -85,6 +85,9 @@ impl Asker<'_> {
         if let Some(query) = self.but_for(&sentence, last, memory) {
             return Some(query);
         }
+        if let Some(query) = self.most_had(&sentence, last) {
+            return Some(query);
+        }
         if let Some(query) = self.count_of_kind(&sentence, memory) {
             return Some(query);
         }
@@ -195,6 +198,16 @@ impl Asker<'_> {
                 other => other,
             };
         }
+        // "Which chair is nearest to the table? And the second nearest?": to the table.
+        let near = |best: &Best| matches!(best.extreme, Extreme::Nearest | Extreme::Farthest);
+        if let Some(best) = noun.best.as_mut().filter(|b| b.anchor.is_none() && near(b)) {
+            query_nouns(last, &mut |old| {
+                let before = old.best.as_ref().filter(|before| near(before));
+                if let Some(before) = before.filter(|_| best.anchor.is_none()) {
+                    best.anchor.clone_from(&before.anchor);
+                }
+            });
+        }
         // «В какой комнате больше всего картин? А меньше всего?» goes on about how many.
         let mut counted = None;
         query_nouns(last, &mut |old| {
@@ -294,6 +307,15 @@ impl Asker<'_> {
             let places = old.restrictions.iter_mut().filter(of_rooms).filter(|_| is_room);
             places.for_each(|place| place.anchors.truncate(1));
         });
+        // "Which of them hangs highest? What about the kitchen?": there.
+        if is_room && !rooms && query.sought().is_some() {
+            let anchors = vec![Noun { text: noun.text.clone(), ..noun }];
+            let restrictions = vec![Restriction { rel: Rel::In, anchors, negated: false }];
+            let mut kind = false;
+            query.first_noun(|old| kind = self.has_kind(old));
+            let place = Noun { restrictions, ..Noun::default() };
+            return self.elsewhere(query, place).filter(|_| kind);
+        }
         // A room may narrow several nouns of the question: all that mean what is replaced.
         let mut replaced: Option<Noun> = None;
         // "What colour is the floor in the kitchen? And the walls?": those of the kitchen.
@@ -352,6 +374,36 @@ impl Asker<'_> {
             repeat_with(sentence, last, &mut noun);
         }
         Some(noun)
+    }
+
+    /// «В какой комнате нет окон? А в какой больше всего?»: of what rooms were asked to have.
+    fn most_had(&self, sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+        let Query::Find(rooms) = last else { return None };
+        let [Restriction { rel: Rel::Has, anchors, .. }] = &rooms.restrictions[..] else {
+            return None;
+        };
+        let [had] = &anchors[..] else { return None };
+        let (mut extreme, mut asks) = (None, false);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::Best(of)) if extreme.is_none() => extreme = Some(of),
+                Item::Mark(Mark::Which | Mark::Where) => asks = true,
+                Item::Mark(Mark::And | Mark::Be | Mark::The | Mark::Have | Mark::Exists) => {}
+                Item::Link(Rel::In | Rel::On) => {}
+                Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
+                Item::Noun(phrase)
+                    if self.is_room(&phrase.noun) && phrase.noun.head.named.is_empty() => {}
+                _ => return None,
+            }
+        }
+        let extreme = match extreme.filter(|_| asks && self.is_room(rooms))? {
+            Extreme::Biggest | Extreme::Most => Extreme::Most,
+            Extreme::Smallest | Extreme::Fewest => Extreme::Fewest,
+            _ => return None,
+        };
+        let had = Noun { indefinite: true, plural: true, count: None, ..had.clone() };
+        let best = Some(Best { extreme, anchor: Some(Box::new(had)) });
+        Some(Query::Find(Noun { best, restrictions: Vec::new(), plural: false, ..rooms.clone() }))
     }
 
     /// Makes a description one of a kind, whichever of the kind it was; false where it is of none.

@@ -12,7 +12,8 @@ use crate::words::Language;
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let rules: [Rule; 35] = [
+    let rules: [Rule; 36] = [
+        nearer_to,
         named_by_number,
         storey_of,
         of_this,
@@ -394,6 +395,18 @@ fn among(words: &Words<'_>) -> Option<String> {
     let of = Language::of(&words.keys[among]).pick("из", "of");
     (pronoun || vocabulary::taken_by(Mark::These, told).is_some())
         .then(|| words.replaced(vec![(among..among + 1, of.to_owned())]))
+}
+
+/// "Which chair is nearer the window?": to it.
+fn nearer_to(words: &Words<'_>) -> Option<String> {
+    let near = words.find(&["nearer", "closer", "nearest", "closest"])?;
+    let article = words.is(near + 1, &["the", "my", "your"]) && near + 2 < words.keys.len();
+    // "Which is nearer the sofa or the bed?" compares the two.
+    let joined = words.find(&["or", "of", "to"]).is_some_and(|joint| joint > near);
+    let gap = words.text.get(words.at[near].end..words.at.get(near + 1)?.start)?;
+    let asks = near > 0 && !words.is(near - 1, &["the", "a"]) && gap.trim().is_empty();
+    (article && asks && !joined)
+        .then(|| words.replaced(vec![(near..near + 1, format!("{} to", words.keys[near]))]))
 }
 
 /// "What else is there but an apple?", "all lamps but not the lamp on the desk": except the apple.

@@ -102,7 +102,8 @@ impl Knowledge<'_> {
             spoken
         };
         let those = together.unwrap_or_else(one_by_one);
-        if !those.is_empty() {
+        // Of one there are no others.
+        if those.len() > 1 || those.len() == 1 && noun.best.is_none() {
             noun.head = Head { things: Some(those), ..Head::default() };
         }
     }
@@ -253,6 +254,13 @@ impl Knowledge<'_> {
         let pair = [one(earlier)?, one(later)?];
         let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
         (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
+    }
+
+    /// "What is between the sofa and the TV? – Nothing. – How far apart are they?": the two.
+    pub(super) fn ends_spoken_of(&self) -> Option<Vec<Thing>> {
+        let noun = self.memory.query.as_ref()?.sought().filter(|_| self.memory.last.is_empty())?;
+        let between = noun.restrictions.iter().find(|place| place.rel == Rel::Between)?;
+        self.ends_between(between).ok().filter(|ends| ends.len() > 1)
     }
 
     /// "What's in the lab? And in the office? Which of the two is bigger?": the rooms or storeys of the last two exchanges.

@@ -68,7 +68,7 @@ impl Knowledge<'_> {
         if let Some(text) = self.out_of_sight(noun, &found) {
             return Ok(Draft::new(Said::Unknown, text));
         }
-        let place = self.restrictions(noun);
+        let place = self.restrictions(&self.in_their_rooms(noun, &found));
         let anchors = self.anchor_things(noun);
         let frame = self.frame_of(noun);
         let text = if found.is_empty() {
@@ -563,6 +563,24 @@ impl Knowledge<'_> {
         within.restrictions[0].rel = Rel::In;
         let found = self.find(&within, true).ok().filter(|_| place.rel == Rel::On)?;
         (!found.is_empty()).then(|| self.existing(&within, &found))
+    }
+
+    /// A description without those rooms, of several, in which nothing was found.
+    fn in_their_rooms(&self, noun: &Noun, found: &[Thing]) -> Noun {
+        let mut told = noun.clone();
+        for place in told.restrictions.iter_mut().filter(|place| !place.negated) {
+            let holds = |anchor: &Noun| {
+                self.find(anchor, true).is_ok_and(|rooms| {
+                    let mut within = rooms.iter().flat_map(|room| self.related(place.rel, *room));
+                    within.any(|t| found.contains(&t))
+                })
+            };
+            let kept: Vec<Noun> = place.anchors.iter().filter(|a| holds(a)).cloned().collect();
+            if matches!(place.rel, Rel::In | Rel::On) && !kept.is_empty() {
+                place.anchors = kept;
+            }
+        }
+        told
     }
 
     /// A description with the place where the things are, for one of several that would do: "on the tables" is on one.

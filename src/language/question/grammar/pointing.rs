@@ -166,8 +166,26 @@ impl Sentence<'_> {
     }
 
     fn is_both(&self, word: u32) -> bool {
-        ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"]
-            .contains(&self.keys[word as usize].as_str())
+        const EACH: [&str; 17] = [
+            "оба",
+            "обе",
+            "обоих",
+            "обеих",
+            "обоим",
+            "обеим",
+            "обоими",
+            "обеими",
+            "both",
+            "each",
+            "каждый",
+            "каждая",
+            "каждое",
+            "каждого",
+            "каждой",
+            "каждом",
+            "каждую",
+        ];
+        EACH.contains(&self.keys[word as usize].as_str())
     }
 
     /// "Both in the kitchen and in the hall": of rooms, and not of those that were told.
