@@ -37,6 +37,7 @@ mod frames;
 mod furniture;
 mod generated_worlds;
 mod going_on;
+mod gone_on;
 mod guides;
 mod hdtmp;
 mod hostile;
@@ -78,6 +79,8 @@ mod rmf_floors;
 mod robot_facts;
 mod routes;
 mod scenes;
+mod scope;
+mod several_places;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

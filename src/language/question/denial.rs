@@ -80,6 +80,7 @@ pub(super) fn truth(sentence: &Sentence<'_>, answer: &Answer) -> Option<bool> {
         (_, 0) => Some(yes),
         (Query::Holds { denial, .. } | Query::Exists { denial, .. }, 1) => match denial {
             Denial::Taken => Some(yes),
+            Denial::Unasked => None,
             Denial::Idle => Some(!yes),
             Denial::None => (denied_within(&answer.query) == 1).then_some(yes),
         },

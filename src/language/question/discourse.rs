@@ -26,6 +26,8 @@ struct Asked {
     through: Vec<Noun>,
     may: bool,
     not: bool,
+    /// Whether there are such at all, or "there".
+    exist: bool,
 }
 
 impl Asker<'_> {
@@ -71,6 +73,10 @@ impl Asker<'_> {
             (Some(true), false, _) => return Some(Query::Duration { from, to }),
             (Some(false), false, _) => return Some(Query::Distance { from, to }),
             (None, true, true) => asked.of?,
+            // "How many doors?" of the way, where they are not asked to be anywhere.
+            (None, true, false) if asked.of == Some(Passing::Doors) && !asked.exist => {
+                Passing::Doors
+            }
             // By its rooms and doors alone there may be a shorter one, which is shut.
             (None, false, true) if asked.asks => {
                 return Some(Query::Way { from, to, detail: Detail::default() });
@@ -158,15 +164,11 @@ impl Asker<'_> {
                     asked.passes = true;
                 }
                 Item::Mark(
-                    Mark::Be
-                    | Mark::The
-                    | Mark::And
-                    | Mark::Exists
-                    | Mark::Have
-                    | Mark::Lead
-                    | Mark::Must,
+                    Mark::Be | Mark::The | Mark::And | Mark::Have | Mark::Lead | Mark::Must,
                 )
                 | Item::Link(Rel::On | Rel::In | Rel::NextTo) => {}
+                Item::Mark(Mark::Exists) => asked.exist = true,
+                Item::Noun(phrase) if phrase.person == Some(Mark::There) => asked.exist = true,
                 Item::Noun(phrase)
                     if phrase.pronoun == Some(Pronoun::Any) || phrase.person.is_some() => {}
                 Item::Noun(phrase) if asked.of.is_none() => {

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use super::grammar::points;
+use super::grammar::{are_shown, points};
 use super::knowledge::Knowledge;
 use super::mark::Mark;
 use super::memory::Exchange;
@@ -107,7 +107,11 @@ impl Knowledge<'_> {
             }
             let missing = |noun: &Noun| noun.head.things.as_deref() == Some(&[]);
             let anchors = || noun.restrictions.iter().flat_map(|place| &place.anchors);
-            if is_shown(noun) && (lacks || robots && elsewhere()) {
+            let unshown = are_shown(noun)
+                && noun.head.things.is_none()
+                && !matches!(query, Query::Where(_) | Query::RoomOf(_))
+                && self.base(&noun.head).len() > 1;
+            if unshown || is_shown(noun) && (lacks || robots && elsewhere()) {
                 word.get_or_insert_with(|| noun.text.clone());
             }
             if let Some(anchor) = anchors().find(|anchor| missing(anchor)) {
@@ -166,7 +170,10 @@ impl Knowledge<'_> {
                 noun.head = Head { things: Some(vec![meant]), ..Head::default() };
             }
         });
-        query.each_noun(&mut |noun| self.of_those_told(noun));
+        query.each_noun(&mut |noun| {
+            self.of_those_told(noun);
+            self.of_those_shown(noun);
+        });
         if self.asked_where() {
             query.each_noun(&mut |noun| self.rooms_there(noun));
         }
@@ -219,6 +226,8 @@ impl Knowledge<'_> {
         if let Query::Count(noun) = query
             && let Some(things @ ([only] | [_, only])) = noun.head.things.as_deref()
             && self.memory.last.len() < 2
+            && !noun.sums()
+            && (noun.text.is_empty() || is_pronoun(noun))
             && things.iter().all(|t| self.kind_of(*t) == self.kind_of(*only))
             && let Some(kind) = self.kind_of(*only)
         {
@@ -336,9 +345,7 @@ impl Knowledge<'_> {
                     return true;
                 }
                 let ones = words.last().is_some_and(|word| matches!(&**word, "one" | "ones"));
-                let said = vocabulary::longest(&words);
-                let pronoun = matches!(said, Some((n, Mark::Pronoun(_))) if n == words.len());
-                let itself = matches!(noun.head.things.as_deref(), Some([_])) && pronoun
+                let itself = matches!(noun.head.things.as_deref(), Some([_])) && is_pronoun(noun)
                     || ones && noun.head.things.is_some();
                 floors(noun) || itself && bare == Noun::default()
             }
@@ -359,6 +366,13 @@ impl Knowledge<'_> {
         let found = self.find(anchor, true).ok().filter(|found| !found.is_empty())?;
         Some(Head { kinds: vec![self.alike(&found)?], ..Head::default() })
     }
+}
+
+/// Whether no word but a pronoun says what is meant.
+fn is_pronoun(noun: &Noun) -> bool {
+    let words = word_keys(&noun.text);
+    let said = vocabulary::longest(&words);
+    matches!(said, Some((taken, Mark::Pronoun(_))) if taken == words.len())
 }
 
 /// Whether a description shows one thing: "that shelf", «эта лампа».

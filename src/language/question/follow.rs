@@ -76,13 +76,16 @@ impl Asker<'_> {
         if let Some(query) = self.more_of_counted(text, memory) {
             return Some(query);
         }
-        if let Some(query) = self.sum_of_counted(text, memory) {
+        if let Some(query) = self.altogether(&plain, last, memory) {
             return Some(query);
         }
         if let Some(query) = self.how_many_told(text, memory) {
             return Some(query);
         }
         if let Some(query) = self.but_for(&sentence, last, memory) {
+            return Some(query);
+        }
+        if let Some(query) = self.most_had(&sentence, last) {
             return Some(query);
         }
         if let Some(query) = self.count_of_kind(&sentence, memory) {
@@ -123,8 +126,7 @@ impl Asker<'_> {
                 query => query,
             });
         }
-        let query = self.altogether(&key, last).or_else(|| self.counted_of_listed(text, memory));
-        if let Some(query) = query {
+        if let Some(query) = self.counted_of_listed(text, memory) {
             return Some(query);
         }
         if let Some(query) =
@@ -195,6 +197,16 @@ impl Asker<'_> {
                 Extreme::Lowest => Extreme::Bottommost,
                 other => other,
             };
+        }
+        // "Which chair is nearest to the table? And the second nearest?": to the table.
+        let near = |best: &Best| matches!(best.extreme, Extreme::Nearest | Extreme::Farthest);
+        if let Some(best) = noun.best.as_mut().filter(|b| b.anchor.is_none() && near(b)) {
+            query_nouns(last, &mut |old| {
+                let before = old.best.as_ref().filter(|before| near(before));
+                if let Some(before) = before.filter(|_| best.anchor.is_none()) {
+                    best.anchor.clone_from(&before.anchor);
+                }
+            });
         }
         // «В какой комнате больше всего картин? А меньше всего?» goes on about how many.
         let mut counted = None;
@@ -286,7 +298,24 @@ impl Asker<'_> {
         // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
         let is_room = self.is_room(&noun);
         let mut rooms = false;
-        query.each_noun(&mut |old| rooms |= self.is_room(old));
+        query.each_noun(&mut |old| {
+            rooms |= self.is_room(old);
+            // … or of several.
+            let of_rooms = |r: &&mut Restriction| {
+                matches!(r.rel, Rel::In | Rel::On) && r.anchors.iter().all(|a| self.is_room(a))
+            };
+            let places = old.restrictions.iter_mut().filter(of_rooms).filter(|_| is_room);
+            places.for_each(|place| place.anchors.truncate(1));
+        });
+        // "Which of them hangs highest? What about the kitchen?": there.
+        if is_room && !rooms && query.sought().is_some() {
+            let anchors = vec![Noun { text: noun.text.clone(), ..noun }];
+            let restrictions = vec![Restriction { rel: Rel::In, anchors, negated: false }];
+            let mut kind = false;
+            query.first_noun(|old| kind = self.has_kind(old));
+            let place = Noun { restrictions, ..Noun::default() };
+            return self.elsewhere(query, place).filter(|_| kind);
+        }
         // A room may narrow several nouns of the question: all that mean what is replaced.
         let mut replaced: Option<Noun> = None;
         // "What colour is the floor in the kitchen? And the walls?": those of the kitchen.
@@ -297,6 +326,14 @@ impl Asker<'_> {
         let of_room = |old: &Noun| surface(&noun) && surface(old);
         let sought = query.sought().is_some();
         let keeps = |old: &Noun| (sought || of_room(old)) && noun.restrictions.is_empty();
+        // "How many of them are books? And plates?": of them.
+        let told = |old: &Noun| {
+            let knowledge = self.knowledge(sentence.language, memory);
+            let list = knowledge.list_with(old.head.things.as_deref()?)?;
+            let anchors = vec![Noun::of(list)];
+            Some(Restriction { rel: Rel::From, anchors, negated: false })
+        };
+        let selects = matches!(last, Query::Count(_) | Query::Find(_));
         query.each_noun(&mut |old| {
             let fits = match &replaced {
                 Some(first) => is_room && rooms && old == first,
@@ -310,8 +347,10 @@ impl Asker<'_> {
                 let placed = |r: &&Restriction| stays && (is_place(r) || own && r.rel == Rel::Of);
                 let place: Vec<Restriction> =
                     old.restrictions.iter().filter(placed).cloned().collect();
+                let list = told(old).filter(|_| selects && !noun.head.kinds.is_empty());
                 *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
                 old.restrictions.extend(place);
+                old.restrictions.extend(list);
             }
         });
         replaced.map(|_| query)
@@ -337,58 +376,34 @@ impl Asker<'_> {
         Some(noun)
     }
 
-    /// «А всего?», "And in the whole flat?": the last question without its place.
-    fn altogether(&self, key: &str, last: &Query) -> Option<Query> {
-        const ALL: [&str; 28] = [
-            "итого",
-            "итого сколько",
-            "сколько итого",
-            "сколько их всего",
-            "всего",
-            "сколько всего",
-            "во всем доме",
-            "во всей квартире",
-            "во всем здании",
-            "во всех комнатах",
-            "в целом",
-            "вообще",
-            "вместе",
-            "в общем",
-            "на всей карте",
-            "in total",
-            "in all",
-            "altogether",
-            "overall",
-            "how many in total",
-            "how many in all",
-            "in the whole house",
-            "in the whole flat",
-            "in the whole apartment",
-            "in the whole building",
-            "in the house",
-            "in the entire house",
-            "everywhere",
-        ];
-        let words = key.split(|c: char| !c.is_alphanumeric());
-        let words: Vec<&str> =
-            words.filter(|w| !["", "а", "и", "and", "what", "about"].contains(w)).collect();
-        if !ALL.contains(&words.join(" ").as_str()) {
+    /// «В какой комнате нет окон? А в какой больше всего?»: of what rooms were asked to have.
+    fn most_had(&self, sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+        let Query::Find(rooms) = last else { return None };
+        let [Restriction { rel: Rel::Has, anchors, .. }] = &rooms.restrictions[..] else {
             return None;
+        };
+        let [had] = &anchors[..] else { return None };
+        let (mut extreme, mut asks) = (None, false);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::Best(of)) if extreme.is_none() => extreme = Some(of),
+                Item::Mark(Mark::Which | Mark::Where) => asks = true,
+                Item::Mark(Mark::And | Mark::Be | Mark::The | Mark::Have | Mark::Exists) => {}
+                Item::Link(Rel::In | Rel::On) => {}
+                Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
+                Item::Noun(phrase)
+                    if self.is_room(&phrase.noun) && phrase.noun.head.named.is_empty() => {}
+                _ => return None,
+            }
         }
-        let mut query = last.clone();
-        let asked = match &mut query {
-            Query::Find(asked)
-            | Query::Count(asked)
-            | Query::Where(asked)
-            | Query::Serving { of: asked, .. } => asked,
-            Query::Exists { what, .. } => what.first_mut()?,
+        let extreme = match extreme.filter(|_| asks && self.is_room(rooms))? {
+            Extreme::Biggest | Extreme::Most => Extreme::Most,
+            Extreme::Smallest | Extreme::Fewest => Extreme::Fewest,
             _ => return None,
         };
-        if asked.head.anything || asked.restrictions.is_empty() {
-            return None;
-        }
-        asked.restrictions.clear();
-        Some(query)
+        let had = Noun { indefinite: true, plural: true, count: None, ..had.clone() };
+        let best = Some(Best { extreme, anchor: Some(Box::new(had)) });
+        Some(Query::Find(Noun { best, restrictions: Vec::new(), plural: false, ..rooms.clone() }))
     }
 
     /// Makes a description one of a kind, whichever of the kind it was; false where it is of none.

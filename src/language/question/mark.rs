@@ -156,6 +156,14 @@ pub(super) enum Mark {
     Pronoun(Pronoun),
     /// «там», "there"
     There,
+    /// «эти», "the listed": shows several of those that were told.
+    These,
+    /// «которые ты назвал», "you listed": says behind a noun that they were told.
+    Listed,
+    /// «всего», "altogether": asks for the sum.
+    Total,
+    /// «во всём доме», "in the whole house": wherever it is.
+    Everywhere,
     /// The noun that an English adjective stands for: "the red one".
     One,
     A,

@@ -194,6 +194,8 @@ impl Memory {
             self.facts.clone_from(&answer.facts);
             self.said = Some(answer.text.clone());
             match &answer.query {
+                // A sum takes the place of what it sums.
+                Query::Count(noun) if noun.sums() => self.counted = vec![noun.clone()],
                 Query::Count(noun) => self.counted.insert(0, noun.clone()),
                 Query::MoreOf { .. } => {}
                 _ => self.counted.clear(),

@@ -8,6 +8,7 @@
 //! three different [`Doubt`]s. No text makes it panic.
 
 mod address;
+mod altogether;
 mod another_had;
 mod another_one;
 mod another_place;

@@ -237,6 +237,14 @@ impl Noun {
         })
     }
 
+    /// Whether it is of all that was counted thing by thing or place by place.
+    pub(super) fn sums(&self) -> bool {
+        let places = |place: &Restriction| place.anchors.len() > 1;
+        self.all
+            && (self.head.things.is_some() && self.text.is_empty()
+                || self.restrictions.iter().any(places))
+    }
+
     /// Whether its number says that several are meant, or none.
     pub(super) fn counts_several(&self) -> bool {
         self.best.is_none() && self.count.is_some_and(|n| n != 1)

@@ -140,50 +140,6 @@ impl Asker<'_> {
             .then(|| Query::Count(Noun { plural: true, ..Noun::of(told.clone()) }))
     }
 
-    /// "How many chairs are in the kitchen? And in the hall? How many is that altogether?": of all that was counted.
-    pub(super) fn sum_of_counted(&self, text: &str, memory: &Memory) -> Option<Query> {
-        const ALL: [&str; 12] = [
-            "altogether",
-            "in total",
-            "in all",
-            "total",
-            "all together",
-            "together",
-            "всего",
-            "вместе",
-            "в сумме",
-            "итого",
-            "всего вместе",
-            "в общей сложности",
-        ];
-        if memory.counted.len() < 2 {
-            return None;
-        }
-        let keys = word_keys(text).join(" ");
-        let all = ALL.iter().find(|all| format!(" {keys} ").contains(&format!(" {all} ")))?;
-        let rest = format!(" {keys} ").replace(&format!(" {all} "), " ");
-        let plain = self.plain(rest.trim());
-        let small = |item: &Item| match item {
-            Item::Mark(mark) => {
-                matches!(mark, Mark::HowMany | Mark::Be | Mark::The | Mark::And | Mark::Have)
-            }
-            Item::Noun(phrase) => {
-                phrase.pronoun == Some(Pronoun::They) || self.is_bare_thing(&phrase.noun)
-            }
-            _ => false,
-        };
-        if !Sentence::new(&plain, &self.mind.lexicon).items().iter().all(small) {
-            return None;
-        }
-        let knowledge = self.knowledge(memory.language, memory);
-        let mut things: Vec<Thing> = Vec::new();
-        for noun in memory.counted.iter().rev() {
-            let found = knowledge.find(noun, true).ok()?;
-            things.extend(found.into_iter().filter(|t| !things.contains(t)).collect::<Vec<_>>());
-        }
-        (!things.is_empty()).then(|| Query::Count(Noun { plural: true, ..Noun::of(things) }))
-    }
-
     /// «Сколько стульев на кухне? А в гостиной? Где больше?»: of the two that were counted.
     pub(super) fn more_of_counted(&self, text: &str, memory: &Memory) -> Option<Query> {
         let [later, earlier] = &memory.counted[..] else { return None };
@@ -318,7 +274,7 @@ impl Asker<'_> {
     }
 
     /// "Things" and no more.
-    fn is_bare_thing(&self, noun: &Noun) -> bool {
+    pub(super) fn is_bare_thing(&self, noun: &Noun) -> bool {
         let plain = noun.filters.is_empty() && noun.restrictions.is_empty() && noun.best.is_none();
         plain && self.knowledge(Language::English, &Memory::default()).is_anything(&noun.head)
     }

@@ -34,6 +34,7 @@ impl Knowledge<'_> {
             {
                 list
             }
+            Pronoun::They if let Some(ends) = self.ends_spoken_of() => ends,
             Pronoun::They if let Some(pair) = self.last_pair() => pair,
             _ if let Some(sought) = self.sought_in_vain(pronoun) => sought,
             // "What can I write with and where is it?": each of them.

@@ -37,6 +37,8 @@ pub enum Denial {
     Taken,
     /// Yes and no are said of what is denied: "Isn't the TV on?" – "No, it is off".
     Idle,
+    /// Neither yes nor no is said: «Что есть на столе: миска или тарелка?»
+    Unasked,
 }
 
 impl Denial {

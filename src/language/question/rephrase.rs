@@ -5,14 +5,20 @@
 use std::borrow::Cow;
 
 use super::constructions;
+use super::mark::{Mark, Pronoun};
 use super::rule::{Rule, Words};
+use super::vocabulary;
 use crate::words::Language;
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let rules: [Rule; 32] = [
+    let rules: [Rule; 36] = [
+        nearer_to,
+        named_by_number,
         storey_of,
         of_this,
+        as_listed,
+        among,
         everything_but,
         numbered,
         locked,
@@ -72,6 +78,18 @@ fn neither(words: &Words<'_>) -> Option<String> {
     let neither = words.find(&["neither"])?;
     let nor = words.find(&["nor"]).filter(|nor| *nor > neither)?;
     // "… are neither apples nor plums" says nothing of what they have.
+    // "Neither in the kitchen nor in the hall": not in the one, and not in the other.
+    let places = |n: usize| {
+        words
+            .keys
+            .get(n + 1..)
+            .and_then(vocabulary::longest)
+            .is_some_and(|(_, mark)| matches!(mark, Mark::Link(_)))
+    };
+    if places(neither) && places(nor) {
+        let not = |n: usize, by: &str| (n..n + 1, by.to_owned());
+        return Some(words.replaced(vec![not(neither, "not"), not(nor, "and not")]));
+    }
     let has = neither.checked_sub(1).filter(|n| words.is(*n, &["has", "have", "contains", "with"]));
     let without = has?..neither + 1;
     Some(words.replaced(vec![(without, "without".to_owned()), (nor..nor + 1, "or".to_owned())]))
@@ -255,6 +273,32 @@ fn beside_it(words: &Words<'_>) -> Option<String> {
     Some(words.replaced(vec![(beside - 2..beside + 1, format!("рядом с {it}"))]))
 }
 
+/// «Назови по одной вещи из каждой комнаты», "Tell me two things in each room": so many are named.
+fn named_by_number(words: &Words<'_>) -> Option<String> {
+    const ONE: [&str; 5] = ["одной", "одному", "одну", "один", "одно"];
+    let told = vocabulary::longest(&words.keys);
+    let listed = match told {
+        Some((taken, Mark::List)) => taken,
+        _ if words.is(0, &["tell"]) && words.is(1, &["me"]) => 2,
+        _ => return None,
+    };
+    let each = usize::from(words.is(listed, &["по"]));
+    let number = words.keys.get(listed + each)?;
+    let one = ONE.contains(&number.as_str());
+    let by = match one {
+        true => "одна",
+        false => words.text.get(words.at[listed + each].clone())?,
+    };
+    let counts = one || number == "one" || crate::question::grammar::number_of(number).is_some();
+    let said = match told {
+        Some((_, Mark::List)) => words.part(0..listed)?,
+        _ => "Name",
+    };
+    counts
+        .then(|| words.replaced(vec![(0..listed + each + 1, format!("{said} {by}"))]))
+        .filter(|text| text != words.text)
+}
+
 /// «Какая дверь ведёт наружу?»: to the street.
 fn outwards(words: &Words<'_>) -> Option<String> {
     let out = words.find(&["наружу"])?;
@@ -316,12 +360,53 @@ fn of_this(words: &Words<'_>) -> Option<String> {
         let taken = this.split(' ').count();
         let ends = at + taken;
         // "of this room" names its own.
+        // «Что из этого есть на кухне: диван, кровать?»: of what is listed behind.
+        if words.text.contains(':') {
+            return Some(words.replaced(vec![(at..ends, String::new())]));
+        }
         let alone = words.is(0, &["сколько", "какие", "что"])
             || ends == words.keys.len()
             || words.is(ends, &["is", "are", "can", "were"]);
         let them = Language::of(words.text).pick("из них", "of them");
         alone.then(|| words.replaced(vec![(at..ends, them.to_owned())]))
     })
+}
+
+/// "Which of the books you listed is red?": of these books.
+fn as_listed(words: &Words<'_>) -> Option<String> {
+    let names = |noun: &usize| {
+        let said = vocabulary::longest(&words.keys[*noun..=*noun]);
+        said.is_none_or(|(_, mark)| mark == Mark::One)
+    };
+    let (noun, taken) = (0..words.keys.len()).filter(names).find_map(|noun| {
+        Some((noun, vocabulary::taken_by(Mark::Listed, words.keys.get(noun + 1..)?)?))
+    })?;
+    let article = noun.checked_sub(1).filter(|n| words.is(*n, &["the", "all"]));
+    let named = words.text.get(words.at[noun].clone())?;
+    let those = format!("{} {named}", Language::of(named).pick("эти", "these"));
+    Some(words.replaced(vec![(article.unwrap_or(noun)..noun + 1 + taken, those)]))
+}
+
+/// "Are there books among them?", «Есть ли среди этих вещей книги?»: of them. Among the chairs is a place.
+fn among(words: &Words<'_>) -> Option<String> {
+    let among = words.find(&["среди", "among", "amongst"])?;
+    let told = words.keys.get(among + 1..)?;
+    let pronoun = matches!(vocabulary::longest(told), Some((_, Mark::Pronoun(Pronoun::They))));
+    let of = Language::of(&words.keys[among]).pick("из", "of");
+    (pronoun || vocabulary::taken_by(Mark::These, told).is_some())
+        .then(|| words.replaced(vec![(among..among + 1, of.to_owned())]))
+}
+
+/// "Which chair is nearer the window?": to it.
+fn nearer_to(words: &Words<'_>) -> Option<String> {
+    let near = words.find(&["nearer", "closer", "nearest", "closest"])?;
+    let article = words.is(near + 1, &["the", "my", "your"]) && near + 2 < words.keys.len();
+    // "Which is nearer the sofa or the bed?" compares the two.
+    let joined = words.find(&["or", "of", "to"]).is_some_and(|joint| joint > near);
+    let gap = words.text.get(words.at[near].end..words.at.get(near + 1)?.start)?;
+    let asks = near > 0 && !words.is(near - 1, &["the", "a"]) && gap.trim().is_empty();
+    (article && asks && !joined)
+        .then(|| words.replaced(vec![(near..near + 1, format!("{} to", words.keys[near]))]))
 }
 
 /// "What else is there but an apple?", "all lamps but not the lamp on the desk": except the apple.

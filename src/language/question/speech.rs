@@ -197,6 +197,11 @@ impl Knowledge<'_> {
             format!("{} {form}", russian::preposition(before, &form))
         };
         match rel {
+            // Each room with its own preposition: «в Гостиной и на Кухне».
+            Rel::In | Rel::On | Rel::Of if anchors.iter().all(|t| t.area().is_some()) => {
+                let each = anchors.iter().map(|t| russian::where_at(self.named(*t).phrase()));
+                enumerate(&each.collect::<Vec<_>>(), self.language)
+            }
             Rel::In | Rel::On | Rel::Of if is_area && anchors.len() == 1 => {
                 russian::where_at(self.named(anchor).phrase())
             }
@@ -450,7 +455,7 @@ impl Knowledge<'_> {
                 if !text.is_empty() {
                     break;
                 }
-                if self.is_floor(anchor) {
+                if self.is_floor(anchor) && restriction.rel != Rel::Has {
                     text = self.pick("на полу", "on the floor").to_owned();
                     continue;
                 }

@@ -60,6 +60,18 @@ impl Knowledge<'_> {
         if self.memory.told_place.is_some() {
             return self.memory.told_place;
         }
+        // "Is there a door from the kitchen to the corridor? How do I get there then?": to what was named last.
+        let between = self
+            .memory
+            .query
+            .as_ref()
+            .and_then(Query::sought)
+            .and_then(|noun| noun.restrictions.iter().find(|place| place.rel == Rel::Between));
+        if let Some(ends) = between.and_then(|between| self.ends_between(between).ok())
+            && let Some(room) = ends.last().filter(|end| end.area().is_some())
+        {
+            return Some(*room);
+        }
         let opens = |thing: &Thing| self.opening(*thing).is_some();
         let bears = |thing: Thing| {
             !opens(&thing)
@@ -82,7 +94,8 @@ impl Knowledge<'_> {
         }
         // «Что на кухне?» lists things there; the kitchen is the place.
         let latest = self.memory.exchanges.first().filter(|e| !e.members().is_empty());
-        if let Some(place) = latest.and_then(|e| e.topics().iter().copied().find(|t| bears(*t))) {
+        let places = |e: &Exchange| e.topics().iter().chain(e.aside()).copied().find(|t| bears(*t));
+        if let Some(place) = latest.and_then(places) {
             return Some(place);
         }
         let latest = *self.memory.spoken.iter().find(|thing| !opens(thing))?;

@@ -4,6 +4,7 @@
 
 use std::collections::HashSet;
 
+use super::grammar::are_shown;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId};
 use super::mark::{Mark, Pronoun};
@@ -77,6 +78,34 @@ impl Knowledge<'_> {
         let those = things.into_iter().filter(|t| all.contains(t)).collect();
         noun.restrictions.remove(at);
         noun.head = Head { things: Some(those), ..Head::default() };
+    }
+
+    /// "Are these books red?": those of the latest that were told together, else one by one.
+    pub(super) fn of_those_shown(&self, noun: &mut Noun) {
+        if !are_shown(noun) || noun.head.things.is_some() {
+            return;
+        }
+        let all: HashSet<Thing> = self.base(&noun.head).into_iter().collect();
+        let fitting = |told: &[Thing]| -> Vec<Thing> {
+            told.iter().copied().filter(|t| all.contains(t)).collect()
+        };
+        let memory = self.memory;
+        let lists = memory.exchanges.iter().map(Exchange::members).chain([&memory.listed[..]]);
+        let together = lists.map(fitting).find(|those| !those.is_empty());
+        let one_by_one = || {
+            let mut spoken: Vec<Thing> = Vec::new();
+            for thing in memory.exchanges.iter().flat_map(Exchange::things) {
+                if all.contains(thing) && !spoken.contains(thing) {
+                    spoken.push(*thing);
+                }
+            }
+            spoken
+        };
+        let those = together.unwrap_or_else(one_by_one);
+        // Of one there are no others.
+        if those.len() > 1 || those.len() == 1 && noun.best.is_none() {
+            noun.head = Head { things: Some(those), ..Head::default() };
+        }
     }
 
     /// "The other one", «остальные»: what was told together with those that were told last, else the others of the
@@ -225,6 +254,13 @@ impl Knowledge<'_> {
         let pair = [one(earlier)?, one(later)?];
         let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
         (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
+    }
+
+    /// "What is between the sofa and the TV? – Nothing. – How far apart are they?": the two.
+    pub(super) fn ends_spoken_of(&self) -> Option<Vec<Thing>> {
+        let noun = self.memory.query.as_ref()?.sought().filter(|_| self.memory.last.is_empty())?;
+        let between = noun.restrictions.iter().find(|place| place.rel == Rel::Between)?;
+        self.ends_between(between).ok().filter(|ends| ends.len() > 1)
     }
 
     /// "What's in the lab? And in the office? Which of the two is bigger?": the rooms or storeys of the last two exchanges.

@@ -182,6 +182,10 @@ const MARKS: &[Mark] = &[
     Mark::One,
     Mark::A,
     Mark::The,
+    Mark::These,
+    Mark::Listed,
+    Mark::Total,
+    Mark::Everywhere,
     Mark::Called,
     Mark::Hesitates,
     Mark::Particle,
@@ -196,7 +200,7 @@ fn table() -> &'static HashMap<String, Phrases> {
     static TABLE: OnceLock<HashMap<String, Phrases>> = OnceLock::new();
     TABLE.get_or_init(|| {
         let mut table: HashMap<String, Phrases> = HashMap::new();
-        for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| !is_parted(*mark)) {
+        for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| !is_apart(*mark)) {
             let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
             table.entry(words[0].clone()).or_default().push((words, mark));
         }
@@ -269,6 +273,27 @@ pub(super) fn parted(words: &[String]) -> Option<Mark> {
         }
         all
     })
+}
+
+/// How many of these words, at their beginning, are a phrase that tells of which things a question goes on to ask.
+pub(super) fn taken_by(mark: Mark, words: &[String]) -> Option<usize> {
+    static BOUNDS: OnceLock<Phrases> = OnceLock::new();
+    let bounds = BOUNDS.get_or_init(|| {
+        let own = phrases().into_iter().filter(|(mark, _)| is_bound(*mark));
+        own.map(|(mark, phrase)| (phrase.split_whitespace().map(name_key).collect(), mark))
+            .collect()
+    });
+    let own = bounds.iter().filter(|(_, own)| *own == mark).map(|(phrase, _)| phrase);
+    own.filter(|phrase| words.starts_with(phrase)).map(Vec::len).max()
+}
+
+/// Other marks have the same words where a sentence is read word by word.
+fn is_bound(mark: Mark) -> bool {
+    matches!(mark, Mark::These | Mark::Listed | Mark::Total | Mark::Everywhere)
+}
+
+fn is_apart(mark: Mark) -> bool {
+    is_parted(mark) || is_bound(mark)
 }
 
 /// Within a sentence "honey" is a thing, "wait" an order, and «короче» compares.

@@ -10,7 +10,7 @@ use super::lexicon::lower_first;
 use super::query::{Noun, Passing, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
 use crate::map::Entity;
-use crate::units::Lengths;
+use crate::units::{AreaId, Lengths};
 use crate::words::length;
 
 /// Measurements said in one sentence, at most.
@@ -23,6 +23,11 @@ impl Knowledge<'_> {
             return Ok(draft);
         }
         let facts = match (about, &self.memory.said, &self.memory.query) {
+            (Some(Query::Passing { from, to, asks: Passing::Directly, .. }), ..)
+                if self.are_apart(from.as_ref(), to)? =>
+            {
+                return self.not_joined(from.as_ref(), to);
+            }
             (Some(query), ..) => {
                 let answer = self.answer(query)?;
                 if answer.facts.is_empty() {
@@ -84,11 +89,22 @@ impl Knowledge<'_> {
         }
     }
 
+    /// The rooms of two ends.
+    fn rooms_at(&self, from: Option<&Noun>, to: &Noun) -> Result<Option<[AreaId; 2]>, Doubt> {
+        let start = from.map_or(Ok(Thing::Robot), |noun| self.one(noun))?;
+        let (from, to) = (self.rooms_of(start), self.rooms_of(self.one(to)?));
+        Ok(from.first().zip(to.first()).map(|(from, to)| [*from, *to]))
+    }
+
+    /// Whether neither a door nor a passage joins the rooms of two ends.
+    fn are_apart(&self, from: Option<&Noun>, to: &Noun) -> Result<bool, Doubt> {
+        let rooms = self.rooms_at(from, to)?;
+        Ok(rooms.is_some_and(|[a, b]| a != b && self.openings_between(a, b).next().is_none()))
+    }
+
     /// "Why can't I go there directly?": no door joins the two.
     fn not_joined(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
-        let start = from.map_or(Ok(Thing::Robot), |noun| self.one(noun))?;
-        let rooms = [self.rooms_of(start), self.rooms_of(self.one(to)?)];
-        let (&[a, ..], &[b, ..]) = (&rooms[0][..], &rooms[1][..]) else {
+        let Some([a, b]) = self.rooms_at(from, to)? else {
             return Ok(self.why_plain(self.memory.said.as_deref().unwrap_or_default(), &[]));
         };
         let place = self.place(Rel::Between, &[a, b].map(|id| Thing::Entity(Entity::Area(id))));
@@ -382,17 +398,22 @@ impl Knowledge<'_> {
     }
 
     fn premise(&self, premise: &Premise) -> String {
+        let value = |value: &Value| match value {
+            Value::Symbol(symbol) => format!("\"{}\"", self.symbol_words(symbol)),
+            number => number.to_string(),
+        };
         let show = |values: &[Option<Value>]| {
-            let text = |v: &Option<Value>| v.as_ref().map_or("_".to_owned(), value);
+            let text = |v: &Option<Value>| v.as_ref().map_or("_".to_owned(), &value);
             values.iter().map(text).collect::<Vec<_>>().join(", ")
         };
         match premise {
             Premise::Fact(n) => format!("#{n}"),
             Premise::Pattern { name, values } => {
                 let what = match values.iter().cloned().collect::<Option<Vec<Value>>>() {
-                    Some(values) => self
-                        .measurement(name, &values)
-                        .unwrap_or_else(|| tuple(&self.shown(name), &values)),
+                    Some(values) => self.measurement(name, &values).unwrap_or_else(|| {
+                        let values: Vec<String> = values.iter().map(&value).collect();
+                        format!("{}({})", self.shown(name), values.join(", "))
+                    }),
                     None => format!("{}({})", self.shown(name), show(values)),
                 };
                 match self.is_russian() {
@@ -413,7 +434,7 @@ impl Knowledge<'_> {
                 }
             },
             Premise::Counted { text, value: found } => {
-                let found = found.as_ref().map(value).unwrap_or_default();
+                let found = found.as_ref().map(&value).unwrap_or_default();
                 format!("{text} = {found}")
             }
             Premise::Unknown { text } => text.clone(),

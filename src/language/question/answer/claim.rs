@@ -347,7 +347,16 @@ impl Knowledge<'_> {
                         format!("{} {}", self.is(things), self.restrictions(&noun))
                     }
                     Claim::Size(size) => self.size_words(*size),
-                    Claim::Kind(noun) => self.none_of(noun),
+                    Claim::Kind(noun) => {
+                        let (phrase, english) = self.kind_phrase(noun);
+                        match (self.is_russian(), things) {
+                            (true, _) => crate::question::lexicon::lower_first(
+                                &phrase.form(Case::Nominative, Number::Plural),
+                            ),
+                            (false, [_]) => format!("is {}", crate::english::a(&english)),
+                            (false, _) => format!("are {}", crate::english::plural(&english)),
+                        }
+                    }
                 })
                 .collect();
             enumerate(&parts, self.language)
@@ -357,8 +366,10 @@ impl Knowledge<'_> {
             (_, true, false) => format!("all of them: {}", self.list(found)),
             (true, _, _) => self.none_of_these(found),
             (false, false, true) => {
+                let are_kinds = claims.iter().all(|claim| matches!(claim, Claim::Kind(_)));
+                let are = if are_kinds { " –" } else { "" };
                 format!(
-                    "не все: {} {}, а {} – нет",
+                    "не все: {}{are} {}, а {} – нет",
                     words(&fit),
                     self.list(&fit),
                     self.list(failed)

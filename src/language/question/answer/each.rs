@@ -46,9 +46,11 @@ impl Knowledge<'_> {
         Ok(Some((noun, rooms)))
     }
 
-    /// "What is on each nightstand?": of every one by itself.
-    pub(super) fn found_by_each(&self, noun: &Noun) -> Result<Option<String>, Doubt> {
+    /// "What is on each nightstand?", "Name one thing in each room": of every one by itself.
+    pub(super) fn found_by_each(&self, noun: &Noun) -> Result<Option<Draft>, Doubt> {
         const SHOWN: usize = 12;
+        const SHOWN_OF_SO_MANY: usize = 30;
+        let asked = noun.count.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
         let Some(at) = noun.restrictions.iter().position(|r| {
             !r.negated && matches!(&r.anchors[..], [only] if only.all && only.head.named.is_empty())
         }) else {
@@ -56,17 +58,20 @@ impl Knowledge<'_> {
         };
         let restriction = &noun.restrictions[at];
         let each = self.find(&restriction.anchors[0], true)?;
-        if each.len() < 2 || each.len() > SHOWN {
+        if each.len() < 2 || asked.is_none() && each.len() > SHOWN {
             return Ok(None);
         }
-        let mut parts = Vec::new();
-        for place in each {
+        let (mut parts, mut all) = (Vec::new(), Vec::new());
+        let more = each.len().saturating_sub(SHOWN_OF_SO_MANY);
+        for place in each.into_iter().take(SHOWN_OF_SO_MANY) {
             let mut own = noun.clone();
             own.restrictions[at].anchors[0] = Noun {
                 head: Head { things: Some(vec![place]), ..Head::default() },
                 ..Noun::default()
             };
-            let found = self.find(&own, true)?;
+            let mut found = self.find(&own, true)?;
+            found.truncate(asked.unwrap_or(usize::MAX));
+            all.extend(found.iter().copied().filter(|t| !all.contains(t)).collect::<Vec<_>>());
             let here = self.place(restriction.rel, &[place]);
             parts.push(match (found.is_empty(), self.is_russian()) {
                 (false, true) => format!("{here} {} {}", self.is(&found), self.list(&found)),
@@ -77,7 +82,13 @@ impl Knowledge<'_> {
                 (true, false) => self.there_is_no(&own, &here),
             });
         }
-        Ok(Some(parts.join("; ")))
+        if more > 0 {
+            parts.push(
+                self.pick("и ещё", "and").to_owned() + &format!(" {more}") + self.pick("", " more"),
+            );
+        }
+        let said = if all.is_empty() { Said::Nothing } else { Said::Found };
+        Ok(Some(Draft::new(said, parts.join("; ")).with(all)))
     }
 
     /// "What is the biggest thing in each room?": of every place by itself.

@@ -62,13 +62,13 @@ impl Knowledge<'_> {
         if let Some(text) = self.neighbours(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
         }
-        if let Some(text) = self.found_by_each(noun)? {
-            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        if let Some(draft) = self.found_by_each(noun)? {
+            return Ok(Draft { facts, ..draft });
         }
         if let Some(text) = self.out_of_sight(noun, &found) {
             return Ok(Draft::new(Said::Unknown, text));
         }
-        let place = self.restrictions(noun);
+        let place = self.restrictions(&self.in_their_rooms(noun, &found));
         let anchors = self.anchor_things(noun);
         let frame = self.frame_of(noun);
         let text = if found.is_empty() {
@@ -460,10 +460,15 @@ impl Knowledge<'_> {
                 false => String::new(),
             };
             let are = |number| if number == 1 { "is" } else { "are" };
-            let of_told = noun.head.things.is_some() && !noun.filters.is_empty();
+            let told = noun.head.things.is_some();
+            let of_told = told && (!noun.filters.is_empty() || self.list_with(&found).is_some());
             match (self.is_russian(), place.is_empty()) {
-                (true, true) if of_told => format!("из них {counted}{list}"),
+                (false, true) if told && noun.sums() => {
+                    format!("there {} {counted} in all{list}", are(number))
+                }
+                (true, true) if of_told && !noun.sums() => format!("из них {counted}{list}"),
                 (false, true) if of_told => format!("among them {} {counted}{list}", are(number)),
+                (true, true) if told => format!("всего {counted}{list}"),
                 (true, true) => format!("на карте {counted}{list}"),
                 (true, false) if self.is_having(noun) => format!("{counted} {place}{list}"),
                 (true, false) => format!("{place} {counted}{list}"),
@@ -508,26 +513,45 @@ impl Knowledge<'_> {
         let all = (0..what.len()).all(have);
         // «Нет ни кровати, ни дивана?» denies each of them.
         let holds = if either || denial.is_taken() { any } else { all };
-        let mut parts: Vec<String> = Vec::new();
-        for (noun, things) in what.iter().zip(&found) {
-            parts.push(self.existing(noun, things));
+        // What bears out the answer is told first: "Yes, there is a mug, but there are no cups".
+        let mut order: Vec<usize> = (0..what.len()).collect();
+        order.order_by_key(|n| have(*n) != holds);
+        let mut parts: Vec<(bool, String)> = Vec::new();
+        for n in order {
+            parts.push((have(n), self.existing(&what[n], &found[n])));
         }
         if let [noun] = what
             && !any
             && let Some(within) = self.within_instead(noun)
         {
-            parts.push(within);
+            parts.push((true, within));
         }
-        let join = self.pick(", но ", ", but ");
-        let join = if all || (!any && what.len() > 1) { self.pick(", и ", " and ") } else { join };
-        let text = parts.join(join);
+        let (mut text, mut before) = (String::new(), None);
+        for (is_there, part) in parts {
+            match before {
+                None => {}
+                Some(same) if same == is_there => text.push_str(self.pick(", и ", " and ")),
+                Some(_) => text.push_str(self.pick(", но ", ", but ")),
+            }
+            text.push_str(&part);
+            before = Some(is_there);
+        }
         // «В комнате нет стула?» is answered by «Да, нет» only in words that cannot mislead.
         let yes = holds != denial.is_taken();
-        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let head = match (denial, yes) {
+            (Denial::Unasked, _) => "",
+            (_, true) => self.pick("да, ", "yes, "),
+            (_, false) => self.pick("нет, ", "no, "),
+        };
         let facts = what.iter().zip(&found).flat_map(|(n, f)| self.facts_of(n, f)).collect();
         let things: Vec<Thing> = found.concat();
         let anchors = self.anchor_things(&what[0]);
-        let said = if yes { Said::Yes } else { Said::No };
+        let said = match (denial, yes) {
+            (Denial::Unasked, true) => Said::Found,
+            (Denial::Unasked, false) => Said::Nothing,
+            (_, true) => Said::Yes,
+            (_, false) => Said::No,
+        };
         Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
             .about(&anchors))
     }
@@ -539,6 +563,24 @@ impl Knowledge<'_> {
         within.restrictions[0].rel = Rel::In;
         let found = self.find(&within, true).ok().filter(|_| place.rel == Rel::On)?;
         (!found.is_empty()).then(|| self.existing(&within, &found))
+    }
+
+    /// A description without those rooms, of several, in which nothing was found.
+    fn in_their_rooms(&self, noun: &Noun, found: &[Thing]) -> Noun {
+        let mut told = noun.clone();
+        for place in told.restrictions.iter_mut().filter(|place| !place.negated) {
+            let holds = |anchor: &Noun| {
+                self.find(anchor, true).is_ok_and(|rooms| {
+                    let mut within = rooms.iter().flat_map(|room| self.related(place.rel, *room));
+                    within.any(|t| found.contains(&t))
+                })
+            };
+            let kept: Vec<Noun> = place.anchors.iter().filter(|a| holds(a)).cloned().collect();
+            if matches!(place.rel, Rel::In | Rel::On) && !kept.is_empty() {
+                place.anchors = kept;
+            }
+        }
+        told
     }
 
     /// A description with the place where the things are, for one of several that would do: "on the tables" is on one.
@@ -577,7 +619,13 @@ impl Knowledge<'_> {
                 some => some,
             };
             bearing.truncate(2);
-            if let (true, [only]) = (found.len() > 1, &bearing[..]) {
+            let bears_all = |a: &Thing| {
+                let related = self.related(restriction.rel, *a);
+                things.iter().all(|t| related.contains(t))
+            };
+            if let (true, [only]) = (found.len() > 1, &bearing[..])
+                && (restriction.rel != Rel::On || bears_all(only))
+            {
                 let head = Head { things: Some(vec![*only]), ..Head::default() };
                 *anchor = Noun { head, ..Noun::default() };
             }

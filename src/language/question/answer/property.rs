@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::map::{DoorStatus, Entity};
-use crate::question::knowledge::Knowledge;
+use crate::question::knowledge::{Kept, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Claim, Head, Noun, Rel, Thing};
 use crate::question::speech::sentence;
@@ -14,7 +14,7 @@ use crate::units::name_key;
 use crate::words::{Case, Language, enumerate};
 
 /// A room, and what the map keeps of its floor or walls.
-type Surface = (Thing, Option<(Option<ValueId>, String)>);
+type Surface = (Thing, Option<Kept>);
 
 impl Knowledge<'_> {
     /// The map's own name of a property.
@@ -137,19 +137,16 @@ impl Knowledge<'_> {
         for anchor in of.restrictions.iter().flat_map(|place| &place.anchors) {
             rooms.extend(self.definite(anchor)?.into_iter().filter(|t| t.area().is_some()));
         }
-        if of.restrictions.is_empty() {
+        if of.restrictions.is_empty() && of.plural && self.is_floor(of) {
+            rooms = self.members(&Extension::Rooms);
+        } else if of.restrictions.is_empty() {
             rooms.extend(self.area_of(Thing::Robot).map(|id| Thing::Entity(Entity::Area(id))));
         }
         if rooms.is_empty() {
             return Err(Doubt::NotUnderstood { words: of.text.clone() });
         }
-        let surface = if self.is_floor(of) { "ПОЛА" } else { "СТЕН" };
-        let key = Property::of(&format!("{} {surface}", property.noun(Language::Russian)));
-        let value = |room: &Thing| {
-            let own = self.values(*room).into_iter().find(|(p, _, _)| *p == key);
-            own.map(|(_, value, text)| (value, text))
-        };
-        Ok(rooms.into_iter().map(|room| (room, value(&room))).collect())
+        let kept = |room| (room, self.kept_of_surface(room, property, of));
+        Ok(rooms.into_iter().map(kept).collect())
     }
 
     /// «Какого цвета стены на кухне?»: of floors and walls, which have no names, the map keeps it with their room.

@@ -8,7 +8,7 @@ use crate::question::grammar::points;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{
-    Best, Claim, Extreme, Noun, Passing, Quantity, Query, Rel, Restriction, Thing,
+    Best, Claim, Denial, Extreme, Noun, Passing, Quantity, Query, Rel, Restriction, Thing,
 };
 use crate::question::values::Property;
 use crate::words::Language;
@@ -330,6 +330,9 @@ impl Frame<'_, '_> {
             _ => None,
         };
         let mut torn = false;
+        if matches!(query, Query::Kinds { .. }) && self.says_both() {
+            return torn;
+        }
         query.clone().each_noun(&mut |noun| {
             let mut rooms = noun.restrictions.iter().filter_map(room);
             torn |= rooms.next().is_some_and(|one| rooms.any(|other| other != one));
@@ -430,7 +433,11 @@ impl Frame<'_, '_> {
         let mut asked: Vec<Rel> =
             self.links.iter().map(|(rel, _)| *rel).filter(|r| side(*r)).collect();
         query.clone().each_noun(&mut |noun| {
-            asked.retain(|rel| noun.restrictions.iter().all(|place| place.rel != *rel));
+            // «За какой дверью ванная?»: what is behind a door is where it leads.
+            let is = |place: &Restriction, rel: Rel| {
+                place.rel == rel || (place.rel, rel) == (Rel::To, Rel::Behind)
+            };
+            asked.retain(|rel| !noun.restrictions.iter().any(|place| is(place, *rel)));
         });
         !asked.is_empty()
     }
@@ -516,6 +523,7 @@ fn spoken_of(noun: &Noun) -> bool {
 fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
     use Query as Q;
     // Yes or no.
+    let unasked = matches!(query, Q::Exists { denial: Denial::Unasked, .. });
     let polar = matches!(
         query,
         Q::Exists { .. }
@@ -529,7 +537,7 @@ fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
             | Q::SameAll { .. }
             | Q::SameSize { .. }
             | Q::Sees(_)
-    );
+    ) && !unasked;
     // "Why is it smaller?" asks of more than the last answer.
     if matches!(query, Q::Why { about: None, .. }) {
         let compares = matches!(

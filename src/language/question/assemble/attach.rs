@@ -9,11 +9,26 @@ use crate::question::mark::Mark;
 use crate::question::query::{Best, Closeness, Extreme, Filter, Noun, Rel, Restriction};
 use crate::question::values::ValueId;
 
+/// How that is told to which something is near: "nearest to the table", or as a place, «к столу».
+enum Nearness {
+    Named,
+    Placed,
+}
+
 impl Frame<'_, '_> {
     /// A noun with all places, values and superlatives of the sentence, but for the places left out.
     pub(super) fn with_rest(&self, mut noun: Noun, without: &[usize]) -> Noun {
         for spot in self.spots.iter().filter(|s| !without.contains(&s.at)) {
-            self.attach(&mut noun, spot);
+            match self.tells_of_nearness(spot) {
+                None => self.attach(&mut noun, spot),
+                Some(Nearness::Named) => {}
+                Some(Nearness::Placed) => {
+                    let anchors = noun.restrictions.last_mut().into_iter();
+                    for anchor in anchors.flat_map(|place| &mut place.anchors) {
+                        self.attach(anchor, spot);
+                    }
+                }
+            }
         }
         noun.filters.extend(self.filters());
         noun.sizes.extend(self.sizes.iter().copied());
@@ -44,15 +59,81 @@ impl Frame<'_, '_> {
         }
         if let Some(there) = &self.there {
             let anchors = vec![there.clone()];
-            noun.restrictions.push(Restriction { rel: Rel::There, anchors, negated: false });
+            // «Какая не там?»
+            let denies = |two: &[String]| {
+                ["не", "not", "t"].contains(&&*two[0]) && ["там", "there"].contains(&&*two[1])
+            };
+            let negated = self.has(Mark::Which) && self.sentence.keys.windows(2).any(denies);
+            noun.restrictions.push(Restriction { rel: Rel::There, anchors, negated });
         }
         self.with_best(noun)
+    }
+
+    /// "Nearest to the table in the kitchen", «ближе всего к столу на кухне»: a room behind that to which something is near
+    /// is of that alone.
+    fn tells_of_nearness(&self, spot: &Spot) -> Option<Nearness> {
+        let near = |mark: &Mark| {
+            matches!(
+                mark,
+                Mark::Nearer(_)
+                    | Mark::Best(Extreme::Nearest | Extreme::Farthest)
+                    | Mark::BestTo(_)
+            )
+        };
+        let near = self.marks.iter().find(|(mark, _)| near(mark)).map(|(_, at)| *at)?;
+        let room = matches!(spot.rel, Rel::In | Rel::On) && self.is_area(&spot.nouns[0]);
+        let before = spot.at.checked_sub(1).filter(|before| room && *before > near)?;
+        let named = self.nouns.iter().any(|s| s.at == before && !self.is_area(&s.noun));
+        let placed = self
+            .spots
+            .iter()
+            .any(|s| s.at == before && s.rel == Rel::To && !self.is_area(&s.nouns[0]));
+        match (named, placed) {
+            (true, _) => Some(Nearness::Named),
+            (_, true) => Some(Nearness::Placed),
+            _ => None,
+        }
+    }
+
+    /// Whether a noun is of rooms, or of what belongs to one as a way out of it does: "the key from the lab".
+    fn is_led_through(&self, noun: &Noun) -> bool {
+        let windows = self.is_kind(noun, |e| *e == Extension::Windows);
+        self.is_area(noun)
+            || self.is_doors(noun)
+            || self.is_exits(noun)
+            || self.is_key(noun)
+            || windows
+    }
+
+    /// "A door from the kitchen to the bedroom" joins the two.
+    pub(super) fn joining(&self, noun: &mut Noun) {
+        if let Some(between) = self.joined_by(noun, &noun.restrictions) {
+            noun.restrictions = vec![between];
+        }
+    }
+
+    /// What is said of a door by all that it leads from and to, where these are two rooms.
+    pub(super) fn joined_by(&self, door: &Noun, ends: &[Restriction]) -> Option<Restriction> {
+        let room = |end: &Restriction| {
+            let leads = matches!(end.rel, Rel::From | Rel::Of | Rel::To | Rel::In | Rel::On);
+            let one = matches!(&end.anchors[..], [room] if self.is_area(room) && !room.all);
+            leads && one && !end.negated
+        };
+        let [from, to] = ends else { return None };
+        let joins = self.is_doors(door) && ends.iter().all(room) && from.anchors != to.anchors;
+        let anchors = [&from.anchors[..], &to.anchors[..]].concat();
+        joins.then_some(Restriction { rel: Rel::Between, anchors, negated: false })
     }
 
     /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
     pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
         if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
             return;
+        }
+        // "A thing from the kitchen" is in it; a door leads from it.
+        let rooms = spot.nouns.iter().all(|room| self.is_area(room));
+        if spot.rel == Rel::From && rooms && !self.is_led_through(noun) {
+            return self.attach(noun, &Spot { rel: Rel::In, ..spot.clone() });
         }
         // «что-нибудь из еды»: what is of a class.
         let class = |class: &Noun| {
@@ -94,7 +175,13 @@ impl Frame<'_, '_> {
         let nearest = |mark: &Mark| {
             matches!(mark, Mark::Nearer(_) | Mark::Best(Extreme::Nearest | Extreme::Farthest))
         };
+        // "How many of them are keys?"
+        let of_several = spot.nouns.iter().any(|noun| {
+            let told = noun.head.things.as_deref().unwrap_or_default();
+            told.len() > 1 && told.iter().all(|thing| thing.replica().is_some())
+        });
         if matches!(spot.rel, Rel::From | Rel::To | Rel::Of)
+            && !of_several
             && self.is_key(noun)
             && !self.marks.iter().any(|(mark, _)| nearest(mark))
         {

@@ -58,7 +58,12 @@ impl Frame<'_, '_> {
         let lacks = self.sentence.keys.iter().any(|key| key == "нет" || key == "нету");
         let none = self.has(Mark::Not)
             && (lacks || self.values.is_empty())
-            && self.nouns.iter().any(|s| !s.nominative);
+            && self.nouns.iter().any(|s| {
+                // «нет чашки»
+                let governed =
+                    s.at.checked_sub(1).is_some_and(|n| self.marks.contains(&(Mark::Not, n)));
+                !s.nominative || lacks && governed
+            });
         // «Ты видишь кресло?»: in view, not on the map.
         let key = |word: &str| self.sentence.keys.iter().any(|key| key == word);
         let from_here = key("see") && key("from");
@@ -147,6 +152,7 @@ impl Frame<'_, '_> {
                 noun.filters.iter_mut().for_each(|filter| filter.negated = false);
             }
         }
+        what.iter_mut().for_each(|noun| self.joining(noun));
         let either = self.has(Mark::Or);
         Some(Query::Exists { what, either, denial: self.denied(none) })
     }
@@ -292,6 +298,32 @@ impl Frame<'_, '_> {
             let anchors = vec![there.clone()];
             claims.push(Claim::Related(Restriction { rel: Rel::There, anchors, negated: false }));
         }
+        // «Ведёт ли дверь из спальни прямо в ванную?»: whether there is one; of a door that is named, whether it does.
+        let mut ends = subject.restrictions.clone();
+        let leads = |claim: &Claim| match claim {
+            Claim::Related(end) => Some(end.clone()),
+            _ => None,
+        };
+        ends.extend(claims.iter().filter_map(leads));
+        if ends.len() == subject.restrictions.len() + claims.len()
+            && !claims.is_empty()
+            && let Some(between) = self.joined_by(&subject, &ends)
+        {
+            let (named, things) = (&subject.head.named, &subject.head.things);
+            let general = named.is_empty() && things.is_none();
+            let restrictions = if general { vec![between.clone()] } else { Vec::new() };
+            let door = Noun { restrictions, ..subject };
+            let denial = self.negated.into();
+            return Some(match general {
+                true => {
+                    let what = vec![Noun { indefinite: true, plural: true, ..door }];
+                    Query::Exists { what, either: false, denial }
+                }
+                false => {
+                    Query::Holds { subject: door, claims: vec![Claim::Related(between)], denial }
+                }
+            });
+        }
         // "Three spoons are on the counter, right?": whether there are so many there, and not where each of them is.
         let placed = |claim: &Claim| matches!(claim, Claim::Related(place) if !place.negated);
         if subject.count.is_some()
@@ -324,7 +356,8 @@ impl Frame<'_, '_> {
         }
         // "Is any door open?" asks whether there is an open one.
         // "Is any of them red?"
-        let of_those = subject.plural && subject.head.things.is_some() && self.has(Mark::A);
+        let of_those = subject.head.things.is_some()
+            && (subject.plural && self.has(Mark::A) || subject.indefinite);
         let general = subject.head.named.is_empty() && subject.head.things.is_none();
         if (subject.indefinite && general) || of_those {
             // "Any chairs that are not white?" asks for others.
@@ -350,6 +383,17 @@ impl Frame<'_, '_> {
                     Claim::Value(filter) => noun.filters.push(filter.clone()),
                     Claim::Size(size) => noun.sizes.push(*size),
                     Claim::Related(place) => noun.restrictions.push(place.clone()),
+                    // "Are any of them books?": whether there are books among them.
+                    Claim::Kind(kind) if of_those => {
+                        let anchors = vec![Noun { indefinite: false, ..subject.clone() }];
+                        noun.head = kind.head.clone();
+                        noun.text = kind.text.clone();
+                        noun.restrictions.push(Restriction {
+                            rel: Rel::From,
+                            anchors,
+                            negated: false,
+                        });
+                    }
                     Claim::Kind(_) => {
                         return Some(Query::Holds { subject, claims, denial: self.negated.into() });
                     }

@@ -466,7 +466,8 @@ impl<'s, 't> Frame<'s, 't> {
                 if meant.is_empty() {
                     return Err(Doubt::NoReferent { word: phrase.noun.text.clone() });
                 }
-                Ok(Some(things(meant, &phrase.noun.text)))
+                let indefinite = phrase.noun.indefinite;
+                Ok(Some(Noun { indefinite, ..things(meant, &phrase.noun.text) }))
             }
             (_, Some(Mark::You)) => {
                 self.you = true;

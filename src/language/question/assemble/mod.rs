@@ -6,6 +6,7 @@
 mod about;
 mod account;
 mod activity;
+mod alternatives;
 mod attach;
 mod claim;
 mod clauses;
@@ -50,7 +51,7 @@ pub(super) fn query(
     }
     let read = match frame.read() {
         None => return Err(frame.not_understood(&items)),
-        read => read.and_then(|query| frame.filled(query, elided)),
+        read => read.and_then(|query| frame.filled(frame.in_both(query), elided)),
     };
     match read {
         Some(mut query) => match frame.left_out(&mut query) {
@@ -364,6 +365,7 @@ impl Frame<'_, '_> {
             .or_else(|| self.side())
             .or_else(|| self.where_is())
             .or_else(|| self.occupied())
+            .or_else(|| self.which_of_named())
             .or_else(|| self.which())
             .or_else(|| self.listed())
             .or_else(|| self.exists())

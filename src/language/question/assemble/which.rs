@@ -483,6 +483,8 @@ impl Frame<'_, '_> {
         for (other, negated) in others.into_iter().zip(denied) {
             let mut anchor = self.narrowed(other.noun.clone());
             anchor.indefinite = true;
+            // «В каких комнатах пол не деревянный?»: there is a floor, which is not so.
+            let negated = negated && !anchor.filters.iter().any(|filter| filter.negated);
             noun.restrictions.push(Restriction { rel: Rel::Has, anchors: vec![anchor], negated });
         }
         Query::Find(noun)

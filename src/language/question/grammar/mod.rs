@@ -38,7 +38,7 @@ use crate::map::Entity;
 use crate::units::name_key;
 use crate::words::{Case, Language, Number, Readings};
 
-pub(super) use pointing::points;
+pub(super) use pointing::{are_shown, points};
 pub(super) use tokens::number_of;
 
 /// A word or phrase with what it is. `words` counts words of the sentence.
@@ -71,6 +71,8 @@ struct Found {
     is_storey: bool,
     /// A kind whose name may stand before a thing's own: «помещение Туалет», «этаж L2».
     is_general: bool,
+    /// Any thing at all, and nothing else.
+    is_thing: bool,
 }
 
 /// A sentence cut into tokens.
@@ -275,13 +277,22 @@ impl<'t> Sentence<'t> {
         let rel = self.having(&input.0[0], &first).unwrap_or(rel);
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
-        let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
+        // «в гостиной и на кухне»: in both rooms, whichever preposition each takes.
+        let of_rooms = matches!(rel, Rel::In | Rel::On) && self.begins_with_area(&input.0[1..]);
+        let in_room =
+            |i: Tokens<'a>| of_rooms && i.0.get(1..).is_some_and(|i| self.begins_with_area(i));
+        let again = |i: Tokens<'a>| {
+            let same = |m| match m {
+                Mark::Link(Rel::In | Rel::On) if in_room(i) => true,
+                mark => mark == Mark::Link(rel),
+            };
+            opt(|i| self.mark(i, same)).parse(i)
+        };
         let next = |i| self.governed_alike(i, rel, &first);
         // "In the hall, the kitchen and the bathroom"; "nearer to the hall, the kitchen or the bathroom" compares the latter.
-        let rooms = matches!(rel, Rel::In | Rel::On) && self.begins_with_area(&input.0[1..]);
         let listed = |i: Tokens<'a>| {
             let (rest, again) = again(self.comma(i)?.0)?;
-            match rooms && self.begins_with_area(rest.0) {
+            match of_rooms && self.begins_with_area(rest.0) {
                 true => next(rest).map(|(rest, noun)| (rest, ((Mark::And, again), noun))),
                 false => fail(i),
             }
@@ -366,46 +377,6 @@ impl<'t> Sentence<'t> {
             return Ok((rest, phrase));
         }
         Ok(self.relative(rest, phrase))
-    }
-
-    fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
-        let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
-        let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
-            Err(_) => self.mark(input, is_person)?,
-            // "all of them"; "Are there pillows on both?"
-            Ok((after, _)) => match self.mark(after, |m| matches!(m, Mark::Pronoun(_))) {
-                Err(_) if self.is_both(input.0[0].from) && !begins_noun(after) => {
-                    (after, Mark::Pronoun(Pronoun::They))
-                }
-                found => found?,
-            },
-        };
-        let last = input.0[input.0.len() - rest.0.len() - 1];
-        let words = input.0[0].from as usize..last.to as usize;
-        let noun = Noun { text: self.said(&words).to_owned(), ..Noun::default() };
-        let pronoun = match mark {
-            Mark::Pronoun(pronoun) => Some(pronoun),
-            _ => None,
-        };
-        let person = pronoun.is_none().then_some(mark);
-        let only_plural_nominative = false;
-        Ok((
-            rest,
-            Phrase {
-                noun,
-                words,
-                pronoun,
-                person,
-                nominative: true,
-                cases: Vec::new(),
-                only_plural_nominative,
-            },
-        ))
-    }
-
-    fn is_both(&self, word: u32) -> bool {
-        ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"]
-            .contains(&self.keys[word as usize].as_str())
     }
 
     fn described<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
@@ -495,6 +466,13 @@ impl<'t> Sentence<'t> {
             }
         }
         noun.rank = storey.or(noun.rank);
+        // "Name one thing in the kitchen": one will do.
+        let before = self.tokens.iter().rev().find(|t| t.to <= input.0[0].from);
+        let is_listed = matches!(before.map(|t| t.kind), Some(Tok::Mark(Mark::List)));
+        if is_listed && noun.indefinite && !noun.plural {
+            noun.count = noun.count.or(Some(1));
+            only_plural_nominative = false;
+        }
         // «вторая полка снизу»
         if let (Some(_), None, Some((extreme, after))) =
             (noun.rank.filter(|_| storey.is_none()), &noun.best, self.counted_from(rest))

@@ -2,9 +2,10 @@
 //!
 //! Invariant: what points means what was spoken of, never all that there is.
 
-use super::{Sentence, Tok};
-use crate::question::mark::Mark;
-use crate::question::query::Noun;
+use super::{Parsed, Phrase, Sentence, Tok, Token, Tokens, begins_noun};
+use crate::question::mark::{Mark, Pronoun};
+use crate::question::query::{Noun, Rel};
+use crate::question::vocabulary;
 use crate::words::word_keys;
 
 /// Words that stand for a noun and point at one of those that were spoken of.
@@ -25,6 +26,19 @@ pub(in super::super) fn points(noun: &Noun) -> bool {
     noun.head.anything && (alone || keys.last().is_some_and(said))
 }
 
+/// Whether a description shows several of those that were told: "these books", «перечисленные книги».
+pub(in super::super) fn are_shown(noun: &Noun) -> bool {
+    let keys = word_keys(&noun.text);
+    let mut words = &keys[..];
+    // "One of these books", «все эти книги»
+    while let Some((taken, Mark::A | Mark::All | Mark::Each | Mark::Link(Rel::Of | Rel::From))) =
+        vocabulary::longest(words)
+    {
+        words = &words[taken..];
+    }
+    vocabulary::taken_by(Mark::These, words).is_some_and(|taken| taken < words.len())
+}
+
 /// "Other", a form of «другой»: «ещё» is other, and stands for no noun.
 pub(super) fn stands_for_one(word: &str) -> bool {
     let russian = ["друг", "втор"].iter().any(|stem| word.starts_with(stem)) && word != "друг";
@@ -32,6 +46,25 @@ pub(super) fn stands_for_one(word: &str) -> bool {
 }
 
 impl Sentence<'_> {
+    /// What follows "these things", where such words stand: they are "they", whatever they are.
+    pub(super) fn after_these_things<'a>(&self, input: Tokens<'a>) -> Option<Tokens<'a>> {
+        let [shown, thing, after @ ..] = input.0 else { return None };
+        let words = self.keys.get(shown.from as usize..shown.to as usize)?;
+        let shows = shown.kind == Tok::Mark(Mark::The)
+            && vocabulary::taken_by(Mark::These, words) == Some(words.len());
+        let is_thing = match thing.kind {
+            Tok::Noun(n) => self.nouns[n as usize].is_thing,
+            Tok::Mark(Mark::One) => true,
+            _ => false,
+        };
+        // "Those things on the table", «те вещи, что на столе» are told by the place.
+        let placed = matches!(
+            after,
+            [Token { kind: Tok::Mark(Mark::Link(_) | Mark::What | Mark::Which), .. }, ..]
+        );
+        (shows && is_thing && !placed).then_some(Tokens(after))
+    }
+
     /// Whether a "this" or "those" stands without a noun: it points at what was spoken of.
     pub(in super::super) fn points(&self) -> bool {
         const THESE: [&str; 6] = ["this", "that", "these", "those", "это", "эти"];
@@ -77,6 +110,93 @@ impl Sentence<'_> {
             );
             pointed && !tells && token.kind == Tok::Mark(Mark::The) && ends
         })
+    }
+
+    /// A pronoun, the robot or who asks; "these things" are "they".
+    pub(super) fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
+        // "Any of these things"
+        let any = || {
+            let (after, _) = self.mark(input, |m| m == Mark::A).ok()?;
+            self.after_these_things(after)
+        };
+        let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
+            Err(_) => match self.after_these_things(input).or_else(|| any()) {
+                Some(rest) => (rest, Mark::Pronoun(Pronoun::They)),
+                None => self.mark(input, is_person)?,
+            },
+            // "all of them"; "Are there pillows on both?"
+            Ok((after, _)) if let Some(rest) = self.after_these_things(after) => {
+                (rest, Mark::Pronoun(Pronoun::They))
+            }
+            Ok((after, _)) => match self.mark(after, |m| matches!(m, Mark::Pronoun(_))) {
+                Err(_)
+                    if self.is_both(input.0[0].from)
+                        && !begins_noun(after)
+                        && !self.joins_rooms(after) =>
+                {
+                    (after, Mark::Pronoun(Pronoun::They))
+                }
+                found => found?,
+            },
+        };
+        let last = input.0[input.0.len() - rest.0.len() - 1];
+        let words = input.0[0].from as usize..last.to as usize;
+        let indefinite = any().is_some();
+        let text = self.said(&words).to_owned();
+        let noun = Noun { text, indefinite, ..Noun::default() };
+        let pronoun = match mark {
+            Mark::Pronoun(pronoun) => Some(pronoun),
+            _ => None,
+        };
+        let person = pronoun.is_none().then_some(mark);
+        let only_plural_nominative = false;
+        Ok((
+            rest,
+            Phrase {
+                noun,
+                words,
+                pronoun,
+                person,
+                nominative: true,
+                cases: Vec::new(),
+                only_plural_nominative,
+            },
+        ))
+    }
+
+    fn is_both(&self, word: u32) -> bool {
+        const EACH: [&str; 17] = [
+            "оба",
+            "обе",
+            "обоих",
+            "обеих",
+            "обоим",
+            "обеим",
+            "обоими",
+            "обеими",
+            "both",
+            "each",
+            "каждый",
+            "каждая",
+            "каждое",
+            "каждого",
+            "каждой",
+            "каждом",
+            "каждую",
+        ];
+        EACH.contains(&self.keys[word as usize].as_str())
+    }
+
+    /// "Both in the kitchen and in the hall": of rooms, and not of those that were told.
+    fn joins_rooms(&self, after: Tokens<'_>) -> bool {
+        let and = |t: &Token| t.kind == Tok::Mark(Mark::And);
+        match after.0 {
+            [Token { kind: Tok::Mark(Mark::Link(_)), .. }, rest @ ..] => {
+                self.begins_with_area(rest) && rest.iter().any(and)
+            }
+            _ => false,
+        }
     }
 
     /// «те, что на комоде», «та, которая у окна»: a pointing word in the place of a noun, told by a clause.

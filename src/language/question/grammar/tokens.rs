@@ -426,15 +426,12 @@ impl<'t> Sentence<'t> {
         let mut found = Found::default();
         let is_kind = hits.iter().any(|h| matches!(h.id, Meaning::Kind(_)));
         // «стол» may be a part of many names; then the kind is meant.
-        let numbered = self.is_numbered(at, taken);
+        let numbered = self.is_numbered(at, taken, lexicon);
         for hit in &hits {
             if let Meaning::Kind(kind) = hit.id {
                 // "on the floor" is not "on the second floor".
                 let skipped = match lexicon.kind(*kind).extension {
-                    Extension::Storeys => {
-                        let trodden = || self.keys[at] == "floors" && self.tells_finish(lexicon);
-                        !numbered && (self.keys[at] == "floor" || trodden())
-                    }
+                    Extension::Storeys => !numbered && self.keys[at].starts_with("floor"),
                     Extension::Floor => numbered && self.keys[at].starts_with("floor"),
                     _ => false,
                 };
@@ -454,6 +451,7 @@ impl<'t> Sentence<'t> {
                         found.is_area |= lexicon.is_area(kind);
                         let extension = lexicon.kind(kind).extension;
                         found.is_storey |= extension == Extension::Storeys;
+                        found.is_thing |= extension == Extension::Things;
                         found.is_general |= matches!(
                             extension,
                             Extension::Storeys
@@ -520,7 +518,7 @@ impl<'t> Sentence<'t> {
     }
 
     /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2".
-    fn is_numbered(&self, at: usize, taken: usize) -> bool {
+    fn is_numbered(&self, at: usize, taken: usize, lexicon: &Lexicon) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.kind != Tok::Mark(Mark::Filler));
         let told = matches!(
             before.map(|t| t.kind),
@@ -539,7 +537,8 @@ impl<'t> Sentence<'t> {
             )
         );
         let next = self.keys.get(at + taken).and_then(|key| number_of(key)).is_some();
-        told || next || self.keys[at] == "floors"
+        // "Floors" are storeys, but "the wooden floors" are trodden.
+        told || next || self.keys[at] == "floors" && !self.tells_finish(lexicon)
     }
 }
 

@@ -170,6 +170,10 @@ impl Knowledge<'_> {
                 }
                 continue;
             }
+            if let Some(fitting) = self.with_surface(restriction, &found)? {
+                found = fitting;
+                continue;
+            }
             let of_rooms = self.ways_out_had(restriction, &found);
             let restriction = of_rooms.as_ref().unwrap_or(restriction);
             let related = match self.related_to(restriction, loose) {

@@ -13,7 +13,7 @@ mod walls;
 
 pub(super) use levels::Level;
 pub(super) use measure::HowFar;
-pub(super) use walls::Held;
+pub(super) use walls::{Held, Kept};
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};

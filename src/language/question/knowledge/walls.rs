@@ -6,8 +6,10 @@ use super::Knowledge;
 use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::lexicon::Extension;
-use crate::question::query::{Noun, Rel, Thing};
+use crate::question::query::{Noun, Rel, Restriction, Thing};
+use crate::question::values::{Property, ValueId};
 use crate::units::{AreaId, Gather as _, Point};
+use crate::words::Language;
 use std::collections::{BTreeSet, HashSet};
 
 /// How a room holds a thing.
@@ -59,7 +61,56 @@ impl Knowledge<'_> {
     }
 }
 
+/// A value, if it is one that is known, and its words.
+pub(in crate::question) type Kept = (Option<ValueId>, String);
+
 impl Knowledge<'_> {
+    /// What the map keeps of the floor or the walls of a room, which have no names of their own.
+    pub(in crate::question) fn kept_of_surface(
+        &self,
+        room: Thing,
+        property: &Property,
+        surface: &Noun,
+    ) -> Option<Kept> {
+        let surface = if self.is_floor(surface) { "ПОЛА" } else { "СТЕН" };
+        let key = Property::of(&format!("{} {surface}", property.noun(Language::Russian)));
+        let own = self.values(room).into_iter().find(|(property, _, _)| *property == key);
+        own.map(|(_, value, text)| (value, text))
+    }
+
+    /// "Rooms with a wooden floor", «комнаты с белыми стенами»: those of some rooms of which the map keeps it. None where no
+    /// surface is described.
+    ///
+    /// # Errors
+    /// The map tells it of none of them.
+    pub(super) fn with_surface(
+        &self,
+        restriction: &Restriction,
+        rooms: &[Thing],
+    ) -> Result<Option<Vec<Thing>>, Doubt> {
+        let [surface] = &restriction.anchors[..] else { return Ok(None) };
+        let is_surface = self.is_floor(surface) || self.is_walls(surface);
+        let of_rooms = !rooms.is_empty() && rooms.iter().all(|room| room.area().is_some());
+        let described = !surface.filters.is_empty() && restriction.rel == Rel::Has;
+        if !(is_surface && of_rooms && described) {
+            return Ok(None);
+        }
+        let values = &self.lexicon().values;
+        let mut fitting = rooms.to_vec();
+        for filter in &surface.filters {
+            let property = &values.entry(filter.value).property;
+            let kept = |room: &Thing| self.kept_of_surface(*room, property, surface)?.0;
+            let denied = filter.negated || restriction.negated;
+            let is = |own| filter.values().any(|wanted| values.is(own, wanted)) != denied;
+            fitting.retain(|room| kept(room).is_some_and(is));
+            // Of some it is not known.
+            if fitting.is_empty() && rooms.iter().any(|room| kept(room).is_none()) {
+                return Err(Doubt::NotUnderstood { words: surface.text.clone() });
+            }
+        }
+        Ok(Some(fitting))
+    }
+
     /// What stands between a thing and the walls near to it.
     pub(super) fn between_walls(&self, thing: Thing) -> HashSet<Thing> {
         let Some(id) = thing.replica() else { return HashSet::new() };
