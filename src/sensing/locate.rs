@@ -225,8 +225,13 @@ impl<'c> Localiser<'c> {
         if let Some(likeliest) = fits.first().map(|fit| fit.pose) {
             fits.retain(|fit| fit.pose == likeliest || fit.rank() >= first - margin);
         }
-        // What could slide along a corridor may be anywhere in it.
-        if fits.len() <= 1 && !loose.is_empty() {
+        // What could slide along a corridor or a wall may be anywhere on it; beside several places that hold it where it fits there
+        // as well.
+        let worth = fits.iter().map(Fit::worth).fold(-1.0, f64::max);
+        let slides = |place: &Isometry2<f64>| {
+            self.fit_at(sensor, ranges, *place, loosely()).worth() >= worth - margin
+        };
+        if !loose.is_empty() && (fits.len() <= 1 || loose.iter().any(slides)) {
             let held = fits.into_iter().map(|fit| fit.pose);
             return self.among_many(sensor, ranges, held.chain(loose));
         }

