@@ -78,23 +78,3 @@ pub(crate) enum Next {
     Poses(u16, Vec<Place>),
     Nothing,
 }
-
-/// What several threads find at the same work, of which this is one.
-pub(crate) fn side_by_side(threads: usize, work: &(dyn Fn(&mut Open) + Sync), open: &mut Open) {
-    let found = std::thread::scope(|scope| {
-        let mut apart = Vec::new();
-        for _ in 1..threads {
-            apart.push(scope.spawn(|| {
-                let mut own = Open::default();
-                work(&mut own);
-                own
-            }));
-        }
-        work(open);
-        let joined = apart
-            .into_iter()
-            .map(|other| other.join().unwrap_or_else(|fault| std::panic::resume_unwind(fault)));
-        joined.collect::<Vec<_>>()
-    });
-    found.into_iter().for_each(|other| open.take_in(other));
-}

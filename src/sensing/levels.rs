@@ -91,8 +91,13 @@ impl Level {
         self.stride << (2 * self.phases())
     }
 
-    /// Takes in the next course: at each cell the most in the window of `2^step` cells from it on, in both directions.
-    pub(crate) fn add(&mut self, most: &[u8], (width, height): (usize, usize)) {
+    /// Takes in the raster of the next kind.
+    pub(crate) fn add(&mut self, raster: &[u8]) {
+        self.values.extend_from_slice(raster);
+    }
+
+    /// The raster of a kind: at each cell the most in the window of `2^step` cells from it on, in both directions.
+    pub(crate) fn raster(&self, most: &[u8], (width, height): (usize, usize)) -> Vec<u8> {
         // What begins anywhere between two phases is within the window of the first, so much the wider.
         let wide = (self.finest > 0).then(|| widened(most, width, height, (1 << self.finest) - 1));
         let most = wide.as_deref().unwrap_or(most);
@@ -101,6 +106,7 @@ impl Level {
             Some(y) if x < width && y < height => most[y * width + x],
             _ => 0,
         };
+        let mut values = Vec::with_capacity((self.rows + 1) * self.up());
         // From below the first row on: of that the upper half counts.
         for above in 0..=self.rows {
             for phase in 0..phases * phases {
@@ -108,13 +114,14 @@ impl Level {
                 let upper = (above << self.step) + low;
                 let lower = upper.checked_sub(1 << self.step);
                 let upper = (above < self.rows).then_some(upper);
-                self.values.extend((0..self.columns).map(|column| {
+                values.extend((0..self.columns).map(|column| {
                     let x = (column << self.step) + left;
                     at(x, lower) | (at(x, upper) << 4)
                 }));
-                self.values.extend([0; STRIP]);
+                values.extend([0; STRIP]);
             }
         }
+        values
     }
 
     /// Where marks that lie so many finest cells on meet it, each of the raster that it names.

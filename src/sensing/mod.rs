@@ -33,6 +33,7 @@ mod operative;
 mod raster;
 mod refine;
 mod search;
+mod threads;
 mod track;
 
 pub use chart::{Chart, Line};

@@ -14,12 +14,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
 
-use super::chart::{Chart, ENDS};
-use super::frontier::{Next, Open, Place, Strip, side_by_side};
+use super::chart::{Chart, ENDS, Line};
+use super::frontier::{Next, Open, Place, Strip};
 use super::levels::{
     BORDER, FINE, FULL, LEVELS, Level, Offsets, STRIP, course, drawn, is_long, kind, kinds, off,
     widened,
 };
+use super::threads::{apart, side_by_side};
 
 /// Side of a cell, in cm, where the building is not so large that there would be more than [`MOST_CELLS`].
 const CELL: f64 = 10.0;
@@ -178,22 +179,30 @@ impl Pyramid {
         let mut levels: Vec<Level> = (0..LEVELS).map(|level| Level::new(level, whole)).collect();
         let mut swept = Level::new(LEVELS - 1, whole);
         let corner = low - Vector2::repeat(BORDER as f64 * cell);
-        for lines in lines_of {
-            let mut most = drawn(lines.into_iter(), corner, cell, whole);
-            for (number, level) in levels.iter_mut().enumerate() {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
+        let (on_levels, on_swept) = (&levels, &swept);
+        let rasters = |lines: &[&Line]| {
+            let mut most = drawn(lines.iter().copied(), corner, cell, whole);
+            let level = |(number, level): (usize, &Level)| {
                 if number > 0 {
                     most = widened(&most, whole.0, whole.1, 1 << (number - 1));
                 }
-                level.add(&most, whole);
-            }
-            for reach in REACHES {
-                swept.add(&widened(&most, whole.0, whole.1, 2 * reach), whole);
+                level.raster(&most, whole)
+            };
+            let mut rasters: Vec<Vec<u8>> = on_levels.iter().enumerate().map(level).collect();
+            let wide = REACHES.map(|reach| widened(&most, whole.0, whole.1, 2 * reach));
+            rasters.push(wide.map(|most| on_swept.raster(&most, whole)).concat());
+            rasters
+        };
+        let made = apart(threads, &lines_of, |lines| rasters(lines));
+        for rasters in made {
+            for (level, raster) in levels.iter_mut().chain([&mut swept]).zip(rasters) {
+                level.add(&raster);
             }
         }
         let off = off(chart);
         let turn = |turn| UnitComplex::new(degrees(turn).to_radians());
         let turns = (0..TURNS).map(turn).collect();
-        let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MOST_THREADS);
         Self { cell, low, width, height, turns, levels, kinds, off, swept, threads }
     }
 
@@ -333,12 +342,15 @@ impl Pyramid {
         let rows = self.height.div_ceil(1 << top).div_ceil(2);
         let columns = self.width.div_ceil(1 << top);
         let next = AtomicUsize::new(0);
-        let work = |open: &mut Open| {
+        let work = || {
+            let mut open = Open::default();
             // Of so many strips that were looked at for several turns together so many had to be looked at for each.
             let (mut looked, mut passed) = (0, 0);
             loop {
                 let job = next.fetch_add(1, Ordering::Relaxed);
-                let Some(Sweep { turns, marks, rough }) = sweeps.get(job / rows) else { break };
+                let Some(Sweep { turns, marks, rough }) = sweeps.get(job / rows) else {
+                    return open;
+                };
                 let row = 2 * (job % rows);
                 for column in (0..columns).step_by(STRIP) {
                     // While that spares more than it costs.
@@ -351,14 +363,17 @@ impl Pyramid {
                         passed += 1;
                     }
                     for &turn in turns {
-                        self.open(open, top, turned.at(top, turn), (turn, column, row), needed);
+                        let place = (turn, column, row);
+                        self.open(&mut open, top, turned.at(top, turn), place, needed);
                     }
                 }
             }
         };
         let mut open = Open::default();
         let strips = sweeps.len() * rows * columns.div_ceil(STRIP);
-        side_by_side(self.threads_for(strips), &work, &mut open);
+        for found in side_by_side(self.threads_for(strips), &work) {
+            open.take_in(found);
+        }
         open
     }
 
@@ -387,21 +402,24 @@ impl Pyramid {
         let Some(rest) = left.checked_sub(count) else { return false };
         *left = rest;
         let next = AtomicUsize::new(0);
-        let work = |open: &mut Open| {
+        let work = || {
+            let mut open = Open::default();
             loop {
                 let first = next.fetch_add(SHARE, Ordering::Relaxed);
-                let Some(share) = strips.get(first..) else { break };
+                let share = strips.get(first..).unwrap_or_default();
                 for strip in share.iter().take(SHARE) {
                     for (level, place) in halves(strip) {
-                        self.open(open, level, turned.at(level, place.0), place, needed);
+                        self.open(&mut open, level, turned.at(level, place.0), place, needed);
                     }
                 }
                 if share.len() <= SHARE {
-                    break;
+                    return open;
                 }
             }
         };
-        side_by_side(self.threads_for(count), &work, open);
+        for found in side_by_side(self.threads_for(count), &work) {
+            open.take_in(found);
+        }
         true
     }
 
