@@ -42,7 +42,7 @@ const MOST_STRIPS: usize = 1_000_000;
 /// Strips that are opened together, and that a thread takes at once.
 const BATCH: usize = 2048;
 const SHARE: usize = 64;
-/// So many are worth a thread's beginning.
+/// See [`Pyramid::worth`].
 const WORTH: usize = 512;
 /// More threads gain little.
 const MOST_THREADS: usize = 4;
@@ -115,6 +115,8 @@ pub(crate) struct Pyramid {
     /// The coarsest level once more, of each course for each of [`REACHES`].
     swept: Level,
     threads: usize,
+    /// So many strips are worth a thread's beginning.
+    worth: usize,
 }
 
 /// Turns that are looked at together: those of them that can come to what is needed, where the marks lie at their middle, and what
@@ -203,7 +205,7 @@ impl Pyramid {
         let off = off(chart);
         let turn = |turn| UnitComplex::new(degrees(turn).to_radians());
         let turns = (0..TURNS).map(turn).collect();
-        Self { cell, low, width, height, turns, levels, kinds, off, swept, threads }
+        Self { cell, low, width, height, turns, levels, kinds, off, swept, threads, worth: WORTH }
     }
 
     /// Where marks lie at some turns about one, for the coarsest level, and how many lie too far out for that.
@@ -425,7 +427,7 @@ impl Pyramid {
 
     /// Into how many threads it pays to share so many strips out.
     fn threads_for(&self, strips: usize) -> usize {
-        if strips < WORTH { 1 } else { self.threads }
+        if strips < self.worth { 1 } else { self.threads }
     }
 
     /// Adds a strip and the one above it, where at least one cell comes to `needed`; of the finest level those cells.
@@ -551,7 +553,7 @@ mod tests {
             };
             let lines: Vec<Line> = (0..count).map(line).collect();
             let chart = Chart::new(lines);
-            let pyramid = Pyramid::of(&chart);
+            let mut pyramid = Pyramid::of(&chart);
             let rasters: HashSet<usize> = pyramid.kinds.iter().copied().flatten().collect();
             assert!(!is_square || rasters.len() < pyramid.kinds.iter().flatten().count());
             let pose = Isometry2::new(at, 1.0 + f64::from(seed as u32));
@@ -580,6 +582,9 @@ mod tests {
                 }
             }
             assert_eq!(found.places, places, "seed {seed}");
+            (pyramid.threads, pyramid.worth) = (3, 1);
+            let again = pyramid.search(&marks, least, margin, apart, 10_000);
+            assert_eq!(again.places, places, "seed {seed}, by threads");
         }
     }
 }
