@@ -113,9 +113,12 @@ fn those_of_a_kind_are_counted_among_these() {
                 let question = format!("How many of these things are {many}?");
                 let answer = engine.ask(&question, &mut counted).unwrap().unwrap();
                 assert_eq!(names(&answer), those, "{told:?}: {question}: {}", answer.text);
-                let biggest =
-                    ask(&engine, &format!("Which of these {many} is the biggest?"), &memory);
-                assert!(names(&biggest).is_subset(&those), "{told:?}: {many}: {}", biggest.text);
+                // Of one there are no others.
+                let question = format!("Which of these {many} is the biggest?");
+                let biggest = engine.ask(&question, &mut memory.clone()).unwrap();
+                assert!(biggest.is_ok() || those.len() == 1, "{told:?}: {question}");
+                let own_biggest = biggest.map(|biggest| names(&biggest)).unwrap_or_default();
+                assert!(own_biggest.is_subset(&those), "{told:?}: {question}: {own_biggest:?}");
                 let any = ask(&engine, &format!("Are any of these things {many}?"), &memory);
                 assert_eq!(any.is_so(), Some(true), "{told:?}: {many}: {}", any.text);
                 for other in kinds.iter().filter(|other| *other != own) {
