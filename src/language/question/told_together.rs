@@ -290,12 +290,12 @@ impl Knowledge<'_> {
 
     /// The latest list of things of which some are, and others.
     pub(super) fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
-        let has = |e: &&Exchange| {
-            e.members().len() > some.len()
-                && !some.is_empty()
-                && some.iter().all(|t| e.members().contains(t))
+        let has = |list: &&[Thing]| {
+            list.len() > some.len() && !some.is_empty() && some.iter().all(|t| list.contains(t))
         };
-        self.memory.exchanges.iter().find(has).map(|e| e.members().to_vec())
+        let lists = self.memory.exchanges.iter().map(Exchange::members);
+        // The list may have been told longer ago than what else is spoken of.
+        lists.chain([&self.memory.listed[..]]).find(has).map(<[Thing]>::to_vec)
     }
 
     /// Of the lists that were told, the latest of which a description fits any.
