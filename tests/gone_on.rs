@@ -148,13 +148,15 @@ fn what_is_not_there_is_the_rest() {
                 let here = told(&engine, &[&format!("Which {kind} are in the {room}?")]);
                 let (Some(all), Some(here)) = (all, here) else { continue };
                 let whether = format!("Are all the {kind} in the {room}?");
-                let Some(answer) = told(&engine, &[&whether, "Which are not there?"]) else {
-                    continue;
-                };
-                let rest: BTreeSet<String> =
-                    names(&all).difference(&names(&here)).cloned().collect();
-                assert_eq!(names(&answer), rest, "{whether}: {}", answer.text);
-                asked += 1;
+                for which in ["Which are not there?", "Which aren't?", "And which ones are not?"] {
+                    let Some(answer) = told(&engine, &[&whether, which]) else {
+                        continue;
+                    };
+                    let rest: BTreeSet<String> =
+                        names(&all).difference(&names(&here)).cloned().collect();
+                    assert_eq!(names(&answer), rest, "{whether} {which}: {}", answer.text);
+                    asked += 1;
+                }
             }
         }
     }

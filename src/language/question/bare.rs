@@ -2,7 +2,9 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
-use super::{Best, Filter, Head, Memory, Noun, Query, Thing};
+use super::{
+    Best, Claim, Closeness, Extreme, Filter, Head, Memory, Noun, Query, Restriction, Thing,
+};
 use crate::words::word_keys;
 
 /// «Какие книги в гостиной? А где чёрная?»: where such a one of what was asked for is.
@@ -41,6 +43,55 @@ pub(super) fn which_alone(key: &str, last: &Query) -> Option<Query> {
     let asks = WHICH.contains(&key.trim_end_matches(['?', '.', '!', ' ']));
     let sought = last.sought().filter(|noun| asks && !noun.head.anything)?;
     Some(Query::Find(Noun { plural: true, indefinite: true, count: None, ..sought.clone() }))
+}
+
+/// "Are all the chairs in the hall? – No, not all. – Which one isn't?": those of which it is not so, or is.
+pub(super) fn which_of_all(sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+    let Query::Holds { subject, claims: claimed, .. } = last else { return None };
+    let [claim] = &claimed[..] else { return None };
+    let mut asks = false;
+    for item in sentence.items() {
+        match item {
+            Item::Mark(Mark::Which) => asks = true,
+            Item::Mark(Mark::And | Mark::Be | Mark::The | Mark::One | Mark::Not) => {}
+            Item::Noun(phrase) if phrase.noun.head.anything && phrase.noun.best.is_none() => {}
+            _ => return None,
+        }
+    }
+    let denied = sentence.keys.iter().any(|key| ["t", "not", "не", "нет"].contains(&key.as_str()));
+    let several = subject.all || subject.plural;
+    if !asks || !several || subject.head.anything {
+        return None;
+    }
+    let mut noun = Noun { all: false, plural: true, indefinite: true, ..subject.clone() };
+    match claim {
+        Claim::Related(place) => {
+            noun.restrictions
+                .push(Restriction { negated: place.negated != denied, ..place.clone() });
+        }
+        Claim::Value(filter) => {
+            noun.filters.push(Filter { negated: filter.negated != denied, ..filter.clone() });
+        }
+        Claim::Size(_) | Claim::Kind(_) => return None,
+    }
+    Some(Query::Find(noun))
+}
+
+/// "Which is closer to the door, the bed or the desk? And farther?": the other way round.
+pub(super) fn compared_otherwise(sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+    let Query::WhichMore { of, to, .. } = last else { return None };
+    let items = sentence.items();
+    let told = match &items[..] {
+        [Item::Mark(Mark::And), Item::Mark(told)] | [Item::Mark(told)] => *told,
+        _ => return None,
+    };
+    let extreme = match told {
+        Mark::More(extreme) if to.is_none() => extreme,
+        Mark::Nearer(Closeness::Nearer) if to.is_some() => Extreme::Nearest,
+        Mark::Nearer(Closeness::Farther) if to.is_some() => Extreme::Farthest,
+        _ => return None,
+    };
+    Some(Query::WhichMore { of: of.clone(), extreme, to: to.clone() })
 }
 
 /// "There's a bag somewhere. Which room?", «Сколько кружек? – Две. – В каких комнатах?»: where the things are that were

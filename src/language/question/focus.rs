@@ -255,7 +255,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether the last question sought something and there was none.
-    fn found_nothing(&self) -> bool {
+    pub(super) fn found_nothing(&self) -> bool {
         let sought = self.memory.query.as_ref().is_some_and(|query| query.sought().is_some());
         sought && self.memory.last.is_empty()
     }

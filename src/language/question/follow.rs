@@ -1,7 +1,9 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
 use super::another_place::{another_placed, near_another};
-use super::bare::{by_how_much, room_alone, where_alone, where_such, which_alone};
+use super::bare::{
+    by_how_much, compared_otherwise, room_alone, where_alone, where_such, which_alone, which_of_all,
+};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Denial;
@@ -83,6 +85,14 @@ impl Asker<'_> {
             return Some(query);
         }
         if let Some(query) = self.but_for(&sentence, last, memory) {
+            return Some(query);
+        }
+        if let Some(query) =
+            which_of_all(&sentence, last).or_else(|| compared_otherwise(&sentence, last))
+        {
+            return Some(query);
+        }
+        if let Some(query) = self.another_pair(&sentence, last) {
             return Some(query);
         }
         if let Some(query) = self.most_had(&sentence, last) {
@@ -374,6 +384,26 @@ impl Asker<'_> {
             repeat_with(sentence, last, &mut noun);
         }
         Some(noun)
+    }
+
+    /// «Гостиная и кухня смежные? А кухня и спальня?»: the same of two other rooms.
+    fn another_pair(&self, sentence: &Sentence<'_>, last: &Query) -> Option<Query> {
+        let Query::Holds { subject, claims, denial } = last else { return None };
+        let [Claim::Related(place)] = &claims[..] else { return None };
+        let items = sentence.items();
+        let own = match &items[..] {
+            [Item::Mark(Mark::And), own @ ..] => own,
+            own => own,
+        };
+        let [Item::Noun(one), Item::Mark(Mark::And), Item::Noun(other)] = own else { return None };
+        let rooms = [subject, &one.noun, &other.noun].into_iter().all(|noun| self.is_room(noun));
+        let anchor = matches!(&place.anchors[..], [anchor] if self.is_room(anchor));
+        let place = Restriction { anchors: vec![other.noun.clone()], ..place.clone() };
+        (rooms && anchor).then(|| Query::Holds {
+            subject: one.noun.clone(),
+            claims: vec![Claim::Related(place)],
+            denial: *denial,
+        })
     }
 
     /// «В какой комнате нет окон? А в какой больше всего?»: of what rooms were asked to have.

@@ -47,8 +47,9 @@ impl Knowledge<'_> {
             }
             // "The living room is big. What are they on?": one thing is no "they", but scissors and «таблетки» are.
             Pronoun::They => {
-                let several =
-                    |t: &Thing| self.memory.is_plural || self.gender(*t).1 == Number::Plural;
+                // Where nothing was found, "they" are not what it was looked for on.
+                let plural = self.memory.is_plural && !self.found_nothing();
+                let several = |t: &Thing| plural || self.gender(*t).1 == Number::Plural;
                 // "I can't find my keys. Where are they?": of two sets neither is meant rather than the other.
                 self.taken_up(pronoun, rel).into_iter().filter(several).collect()
             }

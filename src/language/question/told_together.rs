@@ -82,7 +82,8 @@ impl Knowledge<'_> {
 
     /// "Are these books red?": those of the latest that were told together, else one by one.
     pub(super) fn of_those_shown(&self, noun: &mut Noun) {
-        if !are_shown(noun) || noun.head.things.is_some() {
+        // After what was sought in vain, "these" are none.
+        if !are_shown(noun) || noun.head.things.is_some() || self.found_nothing() {
             return;
         }
         let all: HashSet<Thing> = self.base(&noun.head).into_iter().collect();
@@ -90,8 +91,11 @@ impl Knowledge<'_> {
             told.iter().copied().filter(|t| all.contains(t)).collect()
         };
         let memory = self.memory;
+        // The last answer may have told one of a list; it may have told one by itself.
+        let last = self.list_with(&memory.last).unwrap_or_else(|| memory.last.clone());
         let lists = memory.exchanges.iter().map(Exchange::members).chain([&memory.listed[..]]);
-        let together = lists.map(fitting).find(|those| !those.is_empty());
+        let mut lists = std::iter::once(&last[..]).chain(lists).map(fitting);
+        let together = lists.find(|those| !those.is_empty());
         let one_by_one = || {
             let mut spoken: Vec<Thing> = Vec::new();
             for thing in memory.exchanges.iter().flat_map(Exchange::things) {
@@ -286,12 +290,12 @@ impl Knowledge<'_> {
 
     /// The latest list of things of which some are, and others.
     pub(super) fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
-        let has = |e: &&Exchange| {
-            e.members().len() > some.len()
-                && !some.is_empty()
-                && some.iter().all(|t| e.members().contains(t))
+        let has = |list: &&[Thing]| {
+            list.len() > some.len() && !some.is_empty() && some.iter().all(|t| list.contains(t))
         };
-        self.memory.exchanges.iter().find(has).map(|e| e.members().to_vec())
+        let lists = self.memory.exchanges.iter().map(Exchange::members);
+        // The list may have been told longer ago than what else is spoken of.
+        lists.chain([&self.memory.listed[..]]).find(has).map(<[Thing]>::to_vec)
     }
 
     /// Of the lists that were told, the latest of which a description fits any.

@@ -6,7 +6,7 @@ use super::Frame;
 use super::Spot;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
-use crate::question::query::{Best, Closeness, Extreme, Filter, Noun, Rel, Restriction};
+use crate::question::query::{Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction};
 use crate::question::values::ValueId;
 
 /// How that is told to which something is near: "nearest to the table", or as a place, «к столу».
@@ -132,7 +132,8 @@ impl Frame<'_, '_> {
         }
         // "A thing from the kitchen" is in it; a door leads from it.
         let rooms = spot.nouns.iter().all(|room| self.is_area(room));
-        if spot.rel == Rel::From && rooms && !self.is_led_through(noun) {
+        let told = noun.head != Head::default();
+        if spot.rel == Rel::From && rooms && told && !self.is_led_through(noun) {
             return self.attach(noun, &Spot { rel: Rel::In, ..spot.clone() });
         }
         // «что-нибудь из еды»: what is of a class.

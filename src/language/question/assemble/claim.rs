@@ -285,6 +285,13 @@ impl Frame<'_, '_> {
             if other.noun.head.anything && other.noun.best.is_some() {
                 return None;
             }
+            // «А кухня и спальня?» says of none that it is the other.
+            let joined =
+                other.at.checked_sub(1).is_some_and(|n| self.marks.contains(&(Mark::And, n)));
+            let rooms = self.is_area(&other.noun) && self.is_area(&subject);
+            if joined && rooms && !self.has(Mark::Be) && !self.has(Mark::Lead) {
+                return None;
+            }
             // "Does Door VZ join Room V and Room Z?"
             if self.has(Mark::Lead) && self.is_area(&other.noun) {
                 let anchors = vec![other.noun.clone()];

@@ -82,6 +82,13 @@ impl Sentence<'_> {
             Extreme::Fewest => Extreme::Smallest,
             other => other.of_size(),
         };
+        // «Какие картины висят ниже метра?» asks how high they hang, not how high they are.
+        let hangs = |key: &String| ["вис", "hang", "hung"].iter().any(|stem| key.starts_with(stem));
+        let extreme = match extreme {
+            Extreme::Tallest if self.keys.iter().any(hangs) => Extreme::Topmost,
+            Extreme::Lowest if self.keys.iter().any(hangs) => Extreme::Bottommost,
+            other => other,
+        };
         let than = self
             .keys
             .get(at + not + word)

@@ -121,7 +121,7 @@ impl Sentence<'_> {
             self.after_these_things(after)
         };
         let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
-            Err(_) => match self.after_these_things(input).or_else(|| any()) {
+            Err(_) => match self.after_these_things(input).or_else(any) {
                 Some(rest) => (rest, Mark::Pronoun(Pronoun::They)),
                 None => self.mark(input, is_person)?,
             },

@@ -43,7 +43,8 @@ impl Sentence<'_> {
         let comma = self.comma_between(phrase.words.end, first.from as usize);
         let (rel, rest) = match input.0 {
             [Token { kind: Tok::Mark(Mark::Link(rel)), .. }, which, after @ ..]
-                if self.is_pronoun(which) =>
+                // "On that table" points.
+                if self.is_pronoun(which) && which.kind == Tok::Mark(Mark::Which) =>
             {
                 (inverse(*rel)?, Tokens(after))
             }

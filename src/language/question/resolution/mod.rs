@@ -12,6 +12,7 @@ mod object;
 mod open;
 mod place;
 mod reply;
+mod shown;
 mod terse;
 mod used;
 mod words;
@@ -119,7 +120,8 @@ impl Asker<'_> {
             return Err(misread(Doubt::not_understood(&pair.join(" "))));
         }
         let said = word_keys(&gathered);
-        let text = self.with_kind(self.plain(&gathered), memory);
+        let text = self.with_shown(self.plain(&gathered), memory).map_err(misread)?;
+        let text = self.with_kind(text, memory);
         let text = match self.with_one_of_those(text.clone(), memory) {
             Ok(text) => text,
             Err((doubt, at)) => return Err(self.asked_back(doubt, text, at, language, memory)),
