@@ -422,7 +422,10 @@ impl Resolver<'_, '_> {
                 }
                 _ => None,
             });
-            let clause = Clause { sort: sort(clause), items: &items, objects: objects.collect() };
+            let opens =
+                clauses.get(clause).is_some_and(|(start, _)| command::opens(&text[*start..]));
+            let objects = objects.collect();
+            let clause = Clause { sort: sort(clause), opens, items: &items, objects };
             self.resolve_clause(&clause, own, &mut told, &mut edits)?;
         }
         if let [_] = clauses[..] {
@@ -538,6 +541,7 @@ impl Resolver<'_, '_> {
                 place: told.place,
                 there,
                 gone_to: told.gone_to,
+                opened: told.opened.filter(|_| sort == Sort::Carry),
                 like: objects[..n]
                     .iter()
                     .rev()
@@ -558,6 +562,10 @@ impl Resolver<'_, '_> {
             let end = said.end;
             told.place = things.last().copied().or(told.place);
             told.things.extend(&things);
+            told.opened = things.last().copied().filter(|t| {
+                clause.opens
+                    && t.replica().is_some_and(|id| self.knowledge.world.has_trait(id, "container"))
+            });
             let head = &phrase.noun.head;
             if !head.kinds.is_empty() && head.named.is_empty() {
                 told.like = Some(head.clone());
@@ -657,6 +665,7 @@ impl Resolver<'_, '_> {
 /// A verb with the nouns that stand in its clause, each with its place among the items.
 struct Clause<'i> {
     sort: Sort,
+    opens: bool,
     items: &'i [Item],
     objects: Vec<(usize, &'i Phrase)>,
 }
@@ -670,6 +679,8 @@ struct Told {
     place: Option<Thing>,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,
+    /// What the clause before opens, and may hold things.
+    opened: Option<Thing>,
     /// The room in which what was carried is then.
     carried_to: Option<AreaId>,
 }
