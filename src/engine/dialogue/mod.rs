@@ -434,7 +434,9 @@ impl Hearing<'_, '_> {
         };
         // «Дойдёшь ли ты до спальни?» asks, whatever its verb.
         let asks = self.engine.asks_by_a_word(line)?;
-        let orders = not_understood && !asks_whether(line) && !asks;
+        // A name alone that answers nothing of what was asked back orders nothing either.
+        let answers = asked_back && !has_verb(line) && !begs(line);
+        let orders = not_understood && !asks_whether(line) && !asks && !answers;
         if orders && (commands() || self.engine.orders_tersely(line)?) {
             return self.command(line, awaited);
         }

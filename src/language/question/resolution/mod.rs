@@ -170,10 +170,12 @@ impl Asker<'_> {
                 }
                 let object = edits.iter().find(|edit| edit.object);
                 let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
+                let object = object.map(|edit| (edit.at.clone(), edit.things.clone()));
+                let object = object.or_else(|| self.done_to_it(&text, &sentence, memory));
                 // «А теперь выключи» names nothing: the command before is what may be amended.
                 let amendable = (object.is_some() || goal.is_some()).then(|| Ordered {
                     text: text.clone(),
-                    object: object.map(|edit| (edit.at.clone(), edit.things.clone())),
+                    object,
                     told: edits
                         .iter()
                         .filter(|e| e.name.is_empty())
@@ -562,10 +564,8 @@ impl Resolver<'_, '_> {
             let end = said.end;
             told.place = things.last().copied().or(told.place);
             told.things.extend(&things);
-            told.opened = things.last().copied().filter(|t| {
-                clause.opens
-                    && t.replica().is_some_and(|id| self.knowledge.world.has_trait(id, "container"))
-            });
+            let opened = things.last().copied().filter(|_| clause.opens);
+            told.opened = opened.filter(|thing| self.is_container(*thing));
             let head = &phrase.noun.head;
             if !head.kinds.is_empty() && head.named.is_empty() {
                 told.like = Some(head.clone());
@@ -638,7 +638,9 @@ impl Resolver<'_, '_> {
     /// last.
     fn meant_by_pronoun(&self, sort: Sort, pronoun: Pronoun, told: &Told) -> Option<Thing> {
         let able = |t: &Thing| match sort {
-            Sort::Door => t.area().is_some() || self.knowledge.can(sort, *t),
+            Sort::Door => {
+                t.area().is_some() || self.knowledge.can(sort, *t) || self.is_container(*t)
+            }
             Sort::Switch => self.knowledge.can(sort, *t),
             _ => false,
         };

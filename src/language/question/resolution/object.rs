@@ -338,6 +338,11 @@ impl Resolver<'_, '_> {
         whole
     }
 
+    /// Whether a thing is furniture to keep others in.
+    pub(super) fn is_container(&self, thing: Thing) -> bool {
+        thing.replica().is_some_and(|id| self.knowledge.world.has_trait(id, "container"))
+    }
+
     /// «обе чашки», "both cups"
     fn is_both(&self, words: &Range<usize>) -> bool {
         const BOTH: [&str; 9] =
