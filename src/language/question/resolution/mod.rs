@@ -463,7 +463,7 @@ impl Resolver<'_, '_> {
             self.face(spot, stands, edits)?;
         }
         let there = self.area_of_there(clause, told);
-        if let (Some(_), Some(words)) = (there, self.from_there(clause)) {
+        if let (Some(_), Some(words)) = (there, self.words_for_there(clause)) {
             edits.push(Edit::deletion(&self.bytes(&words)));
         }
         // "Put the book there": not to the book.

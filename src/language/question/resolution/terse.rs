@@ -245,7 +245,7 @@ impl Asker<'_> {
             Item::Noun(phrase) => phrase.noun.head.anything && phrase.pronoun.is_none(),
             _ => false,
         };
-        if !anew.amends && !lone && !(is_open && items.iter().all(tells)) {
+        if !(anew.amends || lone || is_open && items.iter().all(tells)) {
             return None;
         }
         // What is said anew: of what it is done to, of whither.
