@@ -168,6 +168,8 @@ fn whatever_follows_an_order_that_asks_back_does_that_order_or_leaves_it() {
                     ),
                     (pick("Не надо", "Never mind").to_owned(), Wanted::Left),
                     (pick("Нет", "No").to_owned(), Wanted::Left),
+                    // A name that was not asked about, and orders nothing.
+                    (alone.things[0].name.clone(), Wanted::StillOpen),
                     (pick("зюзюбля", "zorble").to_owned(), Wanted::StillOpen),
                     (pick("Где ты?", "Where are you?").to_owned(), Wanted::StillOpen),
                     (format!("{} {there}", pick("Поезжай", "Go")), Wanted::Other),
@@ -345,4 +347,45 @@ fn what_a_line_takes_back_is_not_done() {
         }
     }
     assert!(wrong.is_empty(), "of {tried}:\n{wrong}");
+}
+
+/// "Take it to the bath. And the plate too": the plate to the bath, whatever stood for what was carried.
+#[test]
+fn what_is_done_to_it_is_done_to_another_too() {
+    let mut told = 0;
+    for map in MAPS {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        let things: Vec<Named> = kinds(world, Language::English)
+            .into_iter()
+            .filter(|kind| kind.things.len() == 1)
+            .flat_map(|kind| kind.things)
+            .take(6)
+            .collect();
+        let rooms: Vec<Named> = world
+            .areas
+            .keys()
+            .map(|id| named(world, Entity::Area(*id), Language::English))
+            .collect();
+        for pair in things.windows(2) {
+            for room in rooms.iter().take(3) {
+                let mut memory = Memory::default();
+                let mut hear = |line: &str| {
+                    let whole = engine.resumed(line, &memory).unwrap();
+                    engine.understand_in(whole.as_deref().unwrap_or(line), &mut memory)
+                };
+                if hear(&format!("Where is {}?", pair[0].name)).is_ok() {
+                    continue;
+                }
+                hear(&format!("Take {}", pair[0].name)).unwrap();
+                let first = hear(&format!("Take it to {}", room.name)).unwrap();
+                let next = hear(&format!("And {} too", pair[1].name)).unwrap();
+                assert_eq!(first[0].place(), next[0].place(), "{}", pair[1].name);
+                let id = next[0].what().unwrap().id;
+                assert_eq!(world.name(id), pair[1].symbol);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 10, "{told}");
 }

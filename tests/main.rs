@@ -58,6 +58,7 @@ mod openings;
 mod orders;
 mod partition;
 mod passframes;
+mod places_of_orders;
 mod planning;
 mod planning_ahead;
 mod planning_floor;

@@ -30,7 +30,7 @@ fn what_is_put_into_a_thing_lies_in_it() {
         let mut kinds = BTreeSet::new();
         for holder in world.replicas.values().filter(|r| r.id != thing.id) {
             let kind = world.objects[&holder.object].object_type;
-            if !long() && (!kinds.insert(kind) || kinds.len() % 5 > 0) {
+            if !long() && (!kinds.insert(kind) || kinds.len() % 3 > 0) {
                 continue;
             }
             let russian = |id| {
@@ -54,5 +54,5 @@ fn what_is_put_into_a_thing_lies_in_it() {
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
-    assert!(done > 5 && refused > 5, "{done} done, {refused} refused");
+    assert!(done > 3 && refused > 5, "{done} done, {refused} refused");
 }

@@ -21,6 +21,7 @@
 //! - Every face hears and answers by this; no face has words of its own for it.
 //! - What is remembered belongs to a revision of the map: see [`Engine::ask`].
 
+mod command;
 mod heard;
 mod order;
 mod substitute;
@@ -34,8 +35,8 @@ use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
-    Aside, Conditional, Corrected, Memory, Thing, Unanswered, aside, asks_whether, begs,
-    conditional, hinged, sentences, unaddressed,
+    Aside, Conditional, Corrected, Memory, Unanswered, aside, asks_whether, begs, conditional,
+    hinged, sentences, unaddressed,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -43,7 +44,7 @@ use crate::store::StoreError;
 use crate::units::Stop;
 
 use super::narration::nothing_to_stop;
-use super::task::{OPERATOR, Progress, thing_of};
+use super::task::{OPERATOR, Progress};
 use super::{After, Engine, Error, QueuedTask};
 
 /// How whoever speaks is told what happens, as it happens.
@@ -434,7 +435,9 @@ impl Hearing<'_, '_> {
         };
         // «Дойдёшь ли ты до спальни?» asks, whatever its verb.
         let asks = self.engine.asks_by_a_word(line)?;
-        let orders = not_understood && !asks_whether(line) && !asks;
+        // A name alone that answers nothing of what was asked back orders nothing either.
+        let answers = asked_back && !has_verb(line) && !begs(line);
+        let orders = not_understood && !asks_whether(line) && !asks && !answers;
         if orders && (commands() || self.engine.orders_tersely(line)?) {
             return self.command(line, awaited);
         }
@@ -458,87 +461,6 @@ impl Hearing<'_, '_> {
     fn ask(&mut self, line: &str) -> Result<(), Error> {
         let reply = self.dialogue.ask(self.engine, line)?;
         self.reply(reply)
-    }
-
-    /// Does what a line orders; an order that asked back, which this does not answer, is left.
-    fn command(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
-        let candidates = self.dialogue.memory.asked_about().to_vec();
-        let answers = |command: &Command<Entity>| match command {
-            Command::Stop => true,
-            other => thing_of(other).is_some_and(|id| candidates.contains(&Thing::Entity(id))),
-        };
-        let heard = self.engine.understand_in(line, &mut self.dialogue.memory.clone());
-        if !heard.is_ok_and(|commands| commands.iter().any(answers)) {
-            self.leave_order()?;
-        }
-        self.obey(line, awaited)
-    }
-
-    /// An order that asked back is done no more.
-    fn leave_order(&mut self) -> Result<(), Error> {
-        let asked = !self.dialogue.memory.asked_about().is_empty();
-        match self.dialogue.open.take().filter(|_| asked) {
-            Some(order) => self.not_begun(&order),
-            None => Ok(()),
-        }
-    }
-
-    fn obey(&mut self, line: &str, awaited: bool) -> Result<(), Error> {
-        let language = Language::of(line);
-        if let Some(hinged) = hinged(line)
-            && let Some(so) = self.dialogue.memory.is_so()
-            && hinged.given(so).is_none()
-        {
-            return self.put(Outcome::Waiting, Conditional::nothing_to_do(language), language);
-        }
-        (self.tell)(self.engine, &Event::Ordered(line));
-        let commands = match self.engine.understand_in(line, &mut self.dialogue.memory) {
-            Ok(commands) => commands,
-            Err(error) => {
-                // "Put it back" means what this line spoke of, and nothing that was spoken of before.
-                let asks_back = matches!(
-                    &error,
-                    Error::Misheard(Misheard::WhichOf(_) | Misheard::Ambiguous { .. })
-                );
-                if asks_back {
-                    self.dialogue.open = Some(line.to_owned());
-                } else {
-                    self.engine.hear_of(line, &mut self.dialogue.memory)?;
-                }
-                return match self.offer_nearest(line, &error, language)? {
-                    true => Ok(()),
-                    false => self.refuse(error, language),
-                };
-            }
-        };
-        let pick = |russian, english| language.pick(russian, english);
-        match &commands[..] {
-            // "Never mind the plates, where are the forks?"
-            [Command::Stop] if let Some(asked) = asked_behind(line) => {
-                if awaited {
-                    self.stop(awaited, language)?;
-                }
-                self.hear_one(asked, false)
-            }
-            [Command::Stop] => self.stop(awaited, language),
-            [Command::Wait] => self.put(Outcome::Waiting, pick("Жду.", "I am waiting."), language),
-            [Command::ComeBack] => {
-                let text = pick(
-                    "Я ещё никуда не уезжал. Скажите, куда ехать.",
-                    "I have not been sent anywhere yet. Say where to go.",
-                );
-                self.put(Outcome::NeverLeft, text, language)
-            }
-            [Command::Report] => {
-                let asked = pick("Где ты?", "Where are you?");
-                let text = match self.engine.ask(asked, &mut self.dialogue.memory)? {
-                    Ok(answer) => answer.text,
-                    Err(unanswered) => unanswered.text,
-                };
-                self.put(Outcome::Reported, &text, language)
-            }
-            _ => self.carry_out(line, &commands, &Given::Now, language),
-        }
     }
 
     /// A task that cannot be done is an answer within a dialogue, not its end. The robot does not set out where what it
@@ -705,10 +627,4 @@ impl Hearing<'_, '_> {
         self.heard.replies.push(reply);
         Ok(())
     }
-}
-
-/// What is asked behind words that stop: "Never mind the plates, where are the forks?"
-fn asked_behind(line: &str) -> Option<&str> {
-    let (_, behind) = line.split_once([',', '.', ';', '!', '–', '—'])?;
-    Some(behind.trim()).filter(|behind| behind.ends_with('?'))
 }

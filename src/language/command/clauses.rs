@@ -66,7 +66,7 @@ impl Sentence<'_> {
     /// Whether a comma, and nothing else, parts some words from those before them.
     fn is_parted(&self, before: &Range<usize>, words: &Range<usize>) -> bool {
         let between = &self.text[self.span(before).end..self.span(words).start];
-        between.trim_start().starts_with(',')
+        between.trim_start_matches(['»', '"', '”', ' ']).starts_with(',')
     }
 
     /// Whether words may be what the verb behind them is done to.

@@ -202,6 +202,11 @@ pub(crate) fn clauses(text: &str) -> Vec<(usize, Sort)> {
     found(text).into_iter().map(|f| (f.at.start, Sort::of(f.verb))).collect()
 }
 
+/// Whether a text begins with a verb that opens.
+pub(crate) fn opens(text: &str) -> bool {
+    first(text).is_some_and(|(_, verb)| verb == Verb::Open)
+}
+
 /// Where the verbs of a text stand that begin its clauses.
 pub(crate) fn verbs_of(text: &str) -> Vec<Range<usize>> {
     found(text).into_iter().map(|f| f.at).collect()

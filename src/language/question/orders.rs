@@ -50,7 +50,7 @@ impl Asker<'_> {
         Some(vec![question.to_owned(), order.to_owned()])
     }
 
-    /// The order to go to the first of what a question names by itself; none where it names nothing that is one thing.
+    /// The order to go to the first of what a question names by itself, else to what its answer is about.
     fn way_to_what_is_asked(&self, question: &str, memory: &Memory) -> Option<String> {
         let language = Language::of(question);
         let knowledge = self.knowledge(language, memory);
@@ -62,8 +62,14 @@ impl Asker<'_> {
                 goal = Some(*only);
             }
         });
+        // Where there are several such things: to what the answer speaks of.
+        let told = || {
+            let answer = self.ask(question, &mut memory.clone()).ok()?;
+            let all = answer.things.iter().chain(&answer.topic);
+            all.copied().find(|thing| matches!(thing, Thing::Entity(_)))
+        };
         let go = language.pick("подъедь к", "go to");
-        Some(format!("{go} {}", knowledge.form(goal?, Case::Dative)))
+        Some(format!("{go} {}", knowledge.form(goal.or_else(told)?, Case::Dative)))
     }
 
     /// A question and the order behind it, whatever joins them: a word, a mark, or both.

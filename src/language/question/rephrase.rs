@@ -411,7 +411,8 @@ fn nearer_to(words: &Words<'_>) -> Option<String> {
 
 /// "What else is there but an apple?", "all lamps but not the lamp on the desk": except the apple.
 fn everything_but(words: &Words<'_>) -> Option<String> {
-    const OTHER: [&str; 6] = ["other", "else", "everything", "all", "anything", "nothing"];
+    const OTHER: [&str; 8] =
+        ["other", "else", "everything", "all", "every", "each", "anything", "nothing"];
     let but = words.find(&["but"]).filter(|but| *but > 0 && *but + 1 < words.keys.len())?;
     let other = words.find(&OTHER).filter(|other| *other < but)?;
     let comma = words.text[words.at[other].end..words.at[but].start].contains([',', '.', ';']);

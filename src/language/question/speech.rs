@@ -665,14 +665,27 @@ pub(super) fn sentence(text: &str) -> String {
 
 /// Whether people do not count what a Russian phrase names: «нет мыла».
 fn is_mass(phrase: &NounPhrase) -> bool {
-    const MASS: [&str; 9] =
-        ["мыло", "хлеб", "соль", "вино", "салат", "бумага", "еда", "посуда", "обувь"];
+    const MASS: [&str; 12] = [
+        "мыло",
+        "хлеб",
+        "соль",
+        "вино",
+        "салат",
+        "бумага",
+        "еда",
+        "посуда",
+        "обувь",
+        "молоко",
+        "сок",
+        "вода",
+    ];
     let head = phrase.head().unwrap_or(phrase.name()).to_lowercase();
     MASS.contains(&head.as_str())
 }
 
 /// "no bread"
 fn is_mass_in_english(name: &str) -> bool {
-    const MASS: [&str; 7] = ["bread", "lettuce", "soap", "paper", "food", "wine", "salt"];
+    const MASS: [&str; 10] =
+        ["bread", "lettuce", "soap", "paper", "food", "wine", "salt", "milk", "juice", "water"];
     name.rsplit(' ').next().is_some_and(|head| MASS.contains(&head))
 }

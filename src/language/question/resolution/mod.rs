@@ -172,10 +172,12 @@ impl Asker<'_> {
                 }
                 let object = edits.iter().find(|edit| edit.object);
                 let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
+                let object = object.map(|edit| (edit.at.clone(), edit.things.clone()));
+                let object = object.or_else(|| self.done_to_it(&text, &sentence, memory));
                 // «А теперь выключи» names nothing: the command before is what may be amended.
                 let amendable = (object.is_some() || goal.is_some()).then(|| Ordered {
                     text: text.clone(),
-                    object: object.map(|edit| (edit.at.clone(), edit.things.clone())),
+                    object,
                     told: edits
                         .iter()
                         .filter(|e| e.name.is_empty())
@@ -424,7 +426,10 @@ impl Resolver<'_, '_> {
                 }
                 _ => None,
             });
-            let clause = Clause { sort: sort(clause), items: &items, objects: objects.collect() };
+            let opens =
+                clauses.get(clause).is_some_and(|(start, _)| command::opens(&text[*start..]));
+            let objects = objects.collect();
+            let clause = Clause { sort: sort(clause), opens, items: &items, objects };
             self.resolve_clause(&clause, own, &mut told, &mut edits)?;
         }
         if let [_] = clauses[..] {
@@ -460,7 +465,7 @@ impl Resolver<'_, '_> {
             self.face(spot, stands, edits)?;
         }
         let there = self.area_of_there(clause, told);
-        if let (Some(_), Some(words)) = (there, self.from_there(clause)) {
+        if let (Some(_), Some(words)) = (there, self.words_for_there(clause)) {
             edits.push(Edit::deletion(&self.bytes(&words)));
         }
         // "Put the book there": not to the book.
@@ -540,6 +545,7 @@ impl Resolver<'_, '_> {
                 place: told.place,
                 there,
                 gone_to: told.gone_to,
+                opened: told.opened.filter(|_| sort == Sort::Carry),
                 like: objects[..n]
                     .iter()
                     .rev()
@@ -560,6 +566,8 @@ impl Resolver<'_, '_> {
             let end = said.end;
             told.place = things.last().copied().or(told.place);
             told.things.extend(&things);
+            let opened = things.last().copied().filter(|_| clause.opens);
+            told.opened = opened.filter(|thing| self.is_container(*thing));
             let head = &phrase.noun.head;
             if !head.kinds.is_empty() && head.named.is_empty() {
                 told.like = Some(head.clone());
@@ -632,7 +640,9 @@ impl Resolver<'_, '_> {
     /// last.
     fn meant_by_pronoun(&self, sort: Sort, pronoun: Pronoun, told: &Told) -> Option<Thing> {
         let able = |t: &Thing| match sort {
-            Sort::Door => t.area().is_some() || self.knowledge.can(sort, *t),
+            Sort::Door => {
+                t.area().is_some() || self.knowledge.can(sort, *t) || self.is_container(*t)
+            }
             Sort::Switch => self.knowledge.can(sort, *t),
             _ => false,
         };
@@ -659,6 +669,7 @@ impl Resolver<'_, '_> {
 /// A verb with the nouns that stand in its clause, each with its place among the items.
 struct Clause<'i> {
     sort: Sort,
+    opens: bool,
     items: &'i [Item],
     objects: Vec<(usize, &'i Phrase)>,
 }
@@ -672,6 +683,8 @@ struct Told {
     place: Option<Thing>,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,
+    /// What the clause before opens, and may hold things.
+    opened: Option<Thing>,
     /// The room in which what was carried is then.
     carried_to: Option<AreaId>,
 }

@@ -32,6 +32,8 @@ pub(super) struct More {
     pub(super) there: Option<AreaId>,
     /// The room into which the sentence sends the robot before.
     pub(super) gone_to: Option<AreaId>,
+    /// What was opened for it: «открой холодильник и достань молоко».
+    pub(super) opened: Option<Thing>,
     /// What stands before it in the clause: "the red one" after a book is a book.
     pub(super) like: Option<Head>,
     /// What the sentence has done something to before: another one is none of these.
@@ -134,6 +136,11 @@ impl Resolver<'_, '_> {
                 _ => anchors,
             };
             within.push(Restriction { rel, anchors, negated: false });
+        }
+        if let Some(opened) = more.opened.filter(|_| spots.is_empty() && noun.head.named.is_empty())
+        {
+            let anchors = vec![Noun::of(vec![opened])];
+            within.push(Restriction { rel: Rel::In, anchors, negated: false });
         }
         let told = noun_is.map(|way_out| Noun { head: way_out.head, ..noun.clone() });
         let noun = told.as_ref().unwrap_or(noun);
@@ -329,6 +336,11 @@ impl Resolver<'_, '_> {
             except.restrictions.extend(self.resting(within));
         }
         whole
+    }
+
+    /// Whether a thing is furniture to keep others in.
+    pub(super) fn is_container(&self, thing: Thing) -> bool {
+        thing.replica().is_some_and(|id| self.knowledge.world.has_trait(id, "container"))
     }
 
     /// «обе чашки», "both cups"

@@ -49,6 +49,22 @@ impl Asker<'_> {
         })
     }
 
+    /// Bytes of the pronoun that an order is done to, and what it means.
+    pub(super) fn done_to_it(
+        &self,
+        text: &str,
+        sentence: &Sentence<'_>,
+        memory: &Memory,
+    ) -> Option<(Range<usize>, Vec<Thing>)> {
+        let words = sentence.items().into_iter().find_map(|item| match item {
+            Item::Noun(phrase) if phrase.pronoun.is_some() => Some(phrase.words),
+            _ => None,
+        })?;
+        let at = sentence.words.get(words.start)?.start..sentence.words.get(words.end - 1)?.end;
+        let things = self.spoken_of(text, memory);
+        (!things.is_empty()).then_some((at, things))
+    }
+
     /// The case in which a name stands for the words at some bytes of an order.
     pub(super) fn case_at(&self, text: &str, at: &Range<usize>, memory: &Memory) -> Case {
         let described = command::without_verbs(text);
@@ -89,6 +105,7 @@ impl Asker<'_> {
         if behind.is_empty() {
             return Some(Corrected::Cancelled);
         }
+        let behind = &*command::gathered(behind);
         // It is the last order that is corrected.
         let last = command::clauses(&before).last()?.0;
         let (first, order) = before.split_at(last);

@@ -346,12 +346,12 @@ impl Resolver<'_, '_> {
         let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
             || clause.objects.iter().any(|(_, p)| p.person.is_some() && tells_where(p));
         let is_said =
-            clause.objects.iter().any(says) && is_where || self.from_there(clause).is_some();
+            clause.objects.iter().any(says) && is_where || self.words_for_there(clause).is_some();
         told.place.filter(|_| is_said).and_then(|t| self.knowledge.area_of(t))
     }
 
     /// "Bring the mug from there": the words, with the preposition.
-    pub(super) fn from_there(&self, clause: &Clause<'_>) -> Option<Range<usize>> {
+    pub(super) fn words_for_there(&self, clause: &Clause<'_>) -> Option<Range<usize>> {
         let first = clause.objects.first()?.0;
         let own = clause.items.get(first..)?;
         own.iter().find_map(|item| match item {

@@ -46,6 +46,19 @@ impl Ordered {
         text
     }
 
+    /// The command without "from there", which meant something where that was said.
+    pub(super) fn without_there(&self, from: usize) -> String {
+        const THERE: [&str; 3] = ["there", "оттуда", "там"];
+        let points = |told: &&Range<usize>| {
+            word_keys(&self.text[(*told).clone()]).iter().any(|key| THERE.contains(&key.as_str()))
+        };
+        let mut text = self.text.clone();
+        if let Some(told) = self.told.iter().filter(|told| told.start >= from).find(points) {
+            text.replace_range(told.clone(), "");
+        }
+        text
+    }
+
     /// Whether a place of this sort, which alone does not tell where from whither, is whither the command goes: "put it on
     /// the table. – No, in the cupboard".
     pub(super) fn goes_where_it_says(&self, rel: Rel) -> bool {
@@ -58,13 +71,18 @@ impl Ordered {
 
     /// Whether nothing that words name can be what the command is done to, so that they can only say whither.
     pub(super) fn is_done_to_none_of(&self, knowledge: &Knowledge<'_>, phrase: &Phrase) -> bool {
-        let Some((object, _)) = &self.object else { return true };
         let clauses = command::clauses(&self.text);
-        let own = clauses.iter().rev().find(|(start, _)| *start <= object.start);
+        let object = self.object.as_ref().map(|(at, _)| at).or(self.goal.as_ref());
+        let own =
+            clauses.iter().rev().find(|(start, _)| object.is_some_and(|at| *start <= at.start));
         let sort = own.map_or(Sort::Other, |(_, sort)| *sort);
         let named = knowledge.base(&phrase.noun.head);
         let bare =
             phrase.pronoun.is_none() && phrase.person.is_none() && !phrase.noun.head.anything;
+        // What is gone to is itself what is named.
+        if sort == Sort::Go {
+            return bare && self.object.is_none();
+        }
         bare && !named.is_empty() && !named.iter().any(|thing| knowledge.can(sort, *thing))
     }
 

@@ -240,8 +240,12 @@ impl Asker<'_> {
         let items = sentence.items();
         let lone =
             matches!(&items[..], [Item::Noun(p)] if p.noun.head.anything && p.pronoun.is_none());
-        let tells = |item: &Item| matches!(item, Item::Place { .. } | Item::Value(_));
-        if !anew.amends && !lone && !(is_open && items.iter().all(tells)) {
+        let tells = |item: &Item| match item {
+            Item::Place { .. } | Item::Value(_) => true,
+            Item::Noun(phrase) => phrase.noun.head.anything && phrase.pronoun.is_none(),
+            _ => false,
+        };
+        if !(anew.amends || lone || is_open && items.iter().all(tells)) {
             return None;
         }
         // What is said anew: of what it is done to, of whither.
@@ -288,6 +292,11 @@ impl Asker<'_> {
             }
             _ => return None,
         };
+        if let (Some(said), Some((at, _)), true) = (&said, &ordered.object, whither.is_empty()) {
+            let mut whole = ordered.without_there(at.end);
+            whole.replace_range(at.clone(), said);
+            return Some(whole);
+        }
         // What was carried elsewhere in vain is what it was, wherever it is now.
         if let (None, Some((at, things)), Some(goal)) = (&said, &ordered.object, &ordered.goal)
             && ordered.is_resolved
@@ -331,6 +340,11 @@ impl Asker<'_> {
         }
         let (_, things) = ordered.object.as_ref()?;
         let kind = things.last().and_then(|t| self.kind_of(*t, language))?;
+        // «тот, что на полке»
+        if let Some((_, place)) = said.split_once(" что ").or(said.split_once(" который "))
+        {
+            return Some(format!("{kind} {place}"));
+        }
         // "the one from the shelf"
         if let Some((before, behind)) = said.split_once("one ") {
             return Some(format!("{before}{kind} {behind}"));
