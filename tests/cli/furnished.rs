@@ -187,13 +187,11 @@ fn what_a_plan_lacks_is_proposed() {
         let of_things = of_things.count();
         let told = format!("{name}: {of_things} of {} proposals", proposed.len());
         assert!(10 * of_things >= 6 * proposed.len(), "{told}");
-        println!("{told} are of what is drawn");
         let is_told = |pixel: &usize| proposed.iter().any(|o| far(o, plan.place(*pixel)) <= NEAR);
         let returns = |thing: &[usize]| thing.iter().map(|pixel| seen[*pixel]).sum::<u32>();
         let met: Vec<_> = things.iter().filter(|thing| returns(thing) >= RETURNS).collect();
         let count = met.iter().filter(|thing| thing.iter().any(is_told)).count();
         let told = format!("{name}: {count} of {} things are seen and proposed", met.len());
-        println!("{told}");
         assert!(met.len() >= 60 && 100 * count >= 85 * met.len(), "{told}");
     }
 }
