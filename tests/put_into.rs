@@ -25,7 +25,9 @@ fn what_is_put_into_a_thing_lies_in_it() {
         engine.import(&path, &change_now("test", "")).unwrap();
         let world = engine.world().unwrap().clone();
         let mut dialogue = Dialogue::default();
-        let small = world.replicas.values().filter(|r| world.has_trait(r.id, "portable"));
+        let shut = engine.relations().unwrap().all_shut_in();
+        let free = world.replicas.values().filter(|r| !shut.contains(&r.id));
+        let small = free.filter(|r| world.has_trait(r.id, "portable"));
         let thing = small.min_by_key(|r| r.name.len()).expect("there is something to carry");
         let mut kinds = BTreeSet::new();
         for holder in world.replicas.values().filter(|r| r.id != thing.id) {
