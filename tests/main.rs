@@ -39,7 +39,6 @@ mod generated_worlds;
 mod going_on;
 mod gone_on;
 mod guides;
-mod hdtmp;
 mod hostile;
 mod ifc;
 mod imports;

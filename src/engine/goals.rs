@@ -153,7 +153,8 @@ impl State {
             }
             Command::SetDown { what, within } => {
                 // What a person has does not lie on the floor where he stands.
-                let given = belief.handed_over.iter().any(|(r, _)| Entity::Replica(r.id) == what.id);
+                let given =
+                    belief.handed_over.iter().any(|(r, _)| Entity::Replica(r.id) == what.id);
                 let held = given.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);
                 held.into_iter()
                     .chain([self.set_down(what.id, *within, relations, belief)?])

@@ -143,9 +143,7 @@ fn own_words(shown: &str, said: &str) -> Range<usize> {
     let runs = (0..keys.len()).flat_map(|at| (0..wanted.len()).map(move |from| (at, from)));
     let longest = runs.map(|(at, from)| (run(at, from), std::cmp::Reverse(at))).max();
     match longest {
-        Some((length @ 1.., std::cmp::Reverse(at))) => {
-            words[at].start..words[at + length - 1].end
-        }
+        Some((length @ 1.., std::cmp::Reverse(at))) => words[at].start..words[at + length - 1].end,
         _ => 0..said.len(),
     }
 }

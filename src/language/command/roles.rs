@@ -95,12 +95,7 @@ pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::Find => ("что найти", "what to find"),
         Verb::PutBack => ("что вернуть на место", "what to put back"),
         Verb::ThrowAway => ("что выбросить", "what to throw away"),
-        Verb::GoTo
-        | Verb::Visit
-        | Verb::Move
-        | Verb::Get
-        | Verb::Return
-        | Verb::Leave => {
+        Verb::GoTo | Verb::Visit | Verb::Move | Verb::Get | Verb::Return | Verb::Leave => {
             ("куда ехать", "where to go")
         }
         Verb::Tidy
