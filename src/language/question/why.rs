@@ -31,7 +31,8 @@ impl Knowledge<'_> {
             (Some(query), ..) => {
                 let answer = self.answer(query)?;
                 if answer.facts.is_empty() {
-                    if negated && answer.said == Said::Yes {
+                    let way = matches!(query, Query::CanReach { .. });
+                    if negated && way && answer.said == Said::Yes {
                         return Ok(self.why_not_though_so(&answer.text, &answer.topic));
                     }
                     let plain = || self.why_plain(&answer.text, &answer.topic);
