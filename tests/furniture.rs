@@ -222,6 +222,49 @@ fn what_cannot_be_opened_is_told_before_the_drive() {
     assert!(House::of(&text(Bin::None, true)).order("Dispose of Cup 1").is_err());
 }
 
+/// A survey that draws of a fridge only its shelves and its roof, as convex pieces of a mesh are: what is told to be shut is
+/// shut for what is put in and for what is taken out, and opens only for who opens such things.
+#[test]
+fn what_is_drawn_without_sides_and_told_shut_is_shut_both_ways() {
+    let drawn = |text: &str| {
+        text.replace(
+            "fridge = { name = \"Fridge body\", rect = [60, 60], height = 120, roof = \"conditional\" }",
+            "fridge = { name = \"Fridge body\", rect = [60, 60], height = 120, base = \"permeable\", \
+             roof = \"permeable\", side.A = { permeability = \"permeable\" }, \
+             side.B = { permeability = \"permeable\" }, side.C = { permeability = \"permeable\" }, \
+             side.D = { permeability = \"permeable\" } }\n\
+             plate = { name = \"Plate\", rect = [60, 60], height = 2 }",
+        )
+        .replace(
+            "items = [{ id = \"A\", orthoframe = \"fridge\" }]",
+            "items = [{ id = \"A\", orthoframe = \"fridge\" }, { id = \"B\", orthoframe = \"plate\", \
+             at = [0, 0, 18] }, { id = \"C\", orthoframe = \"plate\", at = [0, 0, 118] }], \
+             links = [{ from = \"A.roof\", to = \"B.base\", rel = [0, 0, -102] }, \
+             { from = \"A.roof\", to = \"C.base\", rel = [0, 0, -2] }]",
+        )
+    };
+    for (order, thing) in [
+        ("Положи Чашку-1 в холодильник", "Чашка-1"),
+        ("Put Cup 2 into the fridge", "Чашка-2"),
+        ("Принеси молоко", "Молоко-1"),
+        ("Bring me the milk", "Молоко-1"),
+    ] {
+        let said = House::of(&drawn(&text(Bin::Open, false))).order(order).unwrap_err();
+        let told = ["дверцы мебели робот не открывает", "not open doors of furniture"];
+        assert!(told.iter().any(|told| said.contains(told)), "{order}: {said}");
+        let mut house = House::of(&drawn(&text(Bin::Open, true)));
+        let before = is_inside(house.engine.world_now().unwrap(), thing, "Холодильник-1");
+        let truth = house.done(order);
+        assert_eq!(is_inside(&truth, thing, "Холодильник-1"), !before, "{order}");
+        assert_eq!(status(&truth, "Холодильник-1"), Some(DoorStatus::Closed), "{order}");
+        let opened = text(Bin::Open, false).replace(
+            "at = [200, 330], properties = { state = \"closed\" }",
+            "at = [200, 330], properties = { state = \"open\" }",
+        );
+        House::of(&drawn(&opened)).done(order);
+    }
+}
+
 #[test]
 fn what_is_in_drawers_and_boxes_is_taken_out_and_they_are_shut_again() {
     for (order, thing, around) in [

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use orthoframe::Engine;
-use orthoframe::engine::Memory;
+use orthoframe::engine::{Dialogue, Memory};
 use orthoframe_language::Language;
 use orthoframe_language::question::{Answer, Said};
 use orthoframe_language::words::russian::{self, Preposition};
@@ -680,4 +680,77 @@ fn the_most_of_all_things_is_not_the_biggest_of_them() {
         let told = whole(&rb2, line);
         assert!(told.is_none(), "{line} {told:?}");
     }
+}
+
+/// «Поезжай в Комнату-Z.» – «А теперь на зарядку.»: after whatever was ordered, the robot goes to the place of its own.
+#[test]
+fn it_goes_on_to_a_place_of_its_own() {
+    let goals = |lines: &[&str]| {
+        let (mut engine, mut dialogue) = (rb2(), Dialogue::default());
+        let heard = lines.iter().map(|l| dialogue.hear(&mut engine, l, &mut |_, _| {}).unwrap());
+        let last = heard.last().expect("a line");
+        last.tasks().map(|task| task.goal.clone()).collect::<Vec<_>>()
+    };
+    let own = goals(&["Поезжай в Комнату-Z.", "Поезжай на зарядку."]);
+    assert_eq!(own.len(), 1);
+    let befores = ["Поезжай в Комнату-Z.", "Go to Room Z.", "Отнеси Чашку-1 в Комнату-Z."];
+    for before in befores {
+        for joint in ["А теперь", "Теперь", "И потом", "Ну а теперь", "Ладно, теперь"]
+        {
+            for haunt in ["на зарядку", "на подзарядку", "к зарядной станции"]
+            {
+                let line = format!("{joint} {haunt}.");
+                assert_eq!(goals(&[before, &line]), own, "{before} {line}");
+            }
+        }
+        for joint in ["And now", "Then", "Now", "Okay, now"] {
+            for haunt in ["to charge", "to recharge", "to your charger", "to the docking station"] {
+                let line = format!("{joint} {haunt}, please.");
+                assert_eq!(goals(&[before, &line]), own, "{before} {line}");
+            }
+        }
+    }
+}
+
+/// «Где ноутбук? – На столе. – Что рядом с ним? – Сколько там стульев?»: of what stands on the floor "there" is the room,
+/// whether or not it was asked in between what is beside.
+#[test]
+fn what_stands_on_the_floor_is_in_the_room_of_what_was_spoken_of() {
+    for map in ["procthor/house_4.json", "procthor/house_5.json"] {
+        let Some(engine) = engine(&format!("../shared/data/{map}")) else { return };
+        let world = engine.world().unwrap();
+        let mut there = Family::default();
+        let portable = world.replicas.values().filter(|r| world.has_trait(r.id, "portable"));
+        for thing in portable.step_by(7) {
+            let Some(area) = engine.relations().unwrap().area_of(thing.id) else { continue };
+            let where_is = format!("Where is {}?", thing.name_en);
+            let beside = format!("What is next to {}?", thing.name_en);
+            let room = &world.areas[&area].name_en;
+            let asked = format!("How many chairs are there in the {}?", room.to_lowercase());
+            let number = |answer: &Answer| answer.number;
+            for lines in [
+                &[&where_is, "How many chairs are in there?"][..],
+                &[&where_is, &beside, "How many chairs are in there?"],
+            ] {
+                there.hear(&engine, lines, &asked, number);
+            }
+        }
+        there.mostly_understood();
+    }
+}
+
+/// "Why can't you reach it?": where a way leads to it, that the arm is too short or that it is not so; never the way as the
+/// reason.
+#[test]
+fn a_way_is_no_reason_why_it_cannot_be_reached() {
+    let Some(engine) = engine("../shared/data/virtualhome/TestScene2_graph.json") else { return };
+    let (mut short, mut unfounded) = (0, 0);
+    for thing in engine.world().unwrap().replicas.values().step_by(5) {
+        let line = format!("Why can't you reach {}?", thing.name_en);
+        let Some(told) = whole(&engine, &line) else { continue };
+        assert!(!told.text.starts_with("By the map it is so: there is a way"), "{}", told.text);
+        short += usize::from(told.text.contains("out of reach"));
+        unfounded += usize::from(told.text.starts_with("By the map it is not so"));
+    }
+    assert!(short > 0 && unfounded > 0, "{short} {unfounded}");
 }

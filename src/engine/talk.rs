@@ -11,7 +11,7 @@ use crate::language::question::{
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
 use crate::meaning;
-use crate::robot::starting_pose;
+use crate::robot::{beyond_arm, starting_pose};
 use crate::semantics::{Relations, Subject, derive, robot_eye, things_in_view};
 use crate::store::Seen;
 use crate::units::{InOrder as _, MapId, Pose, ReplicaId};
@@ -530,6 +530,18 @@ impl Senses for RobotSenses<'_> {
         let around = self.engine.around().map_err(|e| e.to_string())?;
         let without = around.without(avoided, to.area()).map_err(|e| e.to_string())?;
         self.way_around(&without, from, to, language, Detail::Region)
+    }
+
+    fn beyond_arm(&self, thing: ReplicaId) -> Option<f64> {
+        let around = self.engine.around().ok()?;
+        let (map, pose) = self.engine.robot_pose()?;
+        let goal = around.locate_entity(Entity::Replica(thing)).ok()?;
+        let floor = around.floor(goal.map).ok().filter(|_| goal.map == map)?;
+        let world = around.uncarried();
+        let way = floor.route(world, pose.at, goal.target, Method::Shortest).ok()?;
+        let placed = floor.scene().replicas.get(&thing)?;
+        let beyond = beyond_arm(placed, *way.points.last()?, world.robot.radius.get());
+        Some(beyond).filter(|beyond| *beyond > 0.0)
     }
 
     fn visible(&self) -> Vec<ReplicaId> {

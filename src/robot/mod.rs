@@ -60,8 +60,8 @@ pub use obstacle::{is_obstacle, outline_of, stand_obstacle};
 pub use pilot::{Ground, Pilot, height_of_laser};
 pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use shortness::Shortness;
-pub use simulator::Simulator;
 pub use simulator::senses::{Senses, SensingRobot, Touch};
+pub use simulator::{Simulator, beyond_arm};
 pub use solve::{DrivenTime, Reason, Refused, Replanned, Solved, Wanted, solve};
 pub use terrain::{Terrain, solve_on, solve_quickest, solve_without};
 pub use vehicle::{

@@ -59,7 +59,7 @@ pub fn hollow(world: &World, scene: &Scene, support: ReplicaId) -> Hollow {
         return Hollow::No;
     }
     let hollow = || placed.prisms.iter().filter(|p| is_hollow(p));
-    if hollow().any(|p| is_open(world, support, p)) {
+    if hollow().any(|p| is_open(world, placed, p)) {
         Hollow::Open
     } else if hollow().next().is_some() {
         Hollow::Shut
@@ -82,7 +82,7 @@ pub fn spot_in(
 ) -> Option<Frame> {
     let placed = scene.replicas.get(&support)?;
     let mut surfaces = Vec::new();
-    for around in placed.prisms.iter().filter(|p| is_hollow(p) && is_open(world, support, p)) {
+    for around in placed.prisms.iter().filter(|p| is_hollow(p) && is_open(world, placed, p)) {
         surfaces.push(Surface {
             polygon: &around.polygon,
             height: around.bottom,
@@ -334,15 +334,26 @@ fn surrounds(outer: &Prism, inner: &Prism) -> bool {
         && around.x * around.y >= own.x * own.y
 }
 
+/// Whether another part of the thing covers the middle of a hollow.
+fn is_roofed(placed: &PlacedReplica, hollow: &Prism) -> bool {
+    let middle = nalgebra::center(&hollow.bounds.min, &hollow.bounds.max);
+    placed.prisms.iter().any(|roof| {
+        !is_hollow(roof)
+            && roof.bottom > hollow.bottom + FLAT
+            && roof.polygon.contains(middle, 1e-6)
+    })
+}
+
 /// A hand gets in: by a face that is open, or by a door that is; where no door is drawn, by the lid or drawer that the
-/// thing's state tells of.
-fn is_open(world: &World, replica: ReplicaId, prism: &Prism) -> bool {
-    if prism.roof_permeability == Permeability::Permeable
-        || prism.sides.iter().any(|s| s.permeability == Permeability::Permeable)
-    {
+/// thing's state tells of. What is told to be shut and has a roof is shut, though the survey drew none of its sides.
+fn is_open(world: &World, placed: &PlacedReplica, prism: &Prism) -> bool {
+    let Some(replica) = world.replicas.get(&placed.id) else { return false };
+    let told_shut = crate::map::is_open(&replica.properties) == Some(false);
+    let has_open_face = prism.roof_permeability == Permeability::Permeable
+        || prism.sides.iter().any(|s| s.permeability == Permeability::Permeable);
+    if has_open_face && !(told_shut && is_roofed(placed, prism)) {
         return true;
     }
-    let Some(replica) = world.replicas.get(&replica) else { return false };
     let object = &world.objects[&replica.object];
     if object.doors.is_empty() {
         return crate::map::is_open(&replica.properties) == Some(true);

@@ -14,8 +14,8 @@ use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::Segment;
 
 use crate::geometry::{
-    Bounds, LIFT_WAIT, Leaves, Opening, Openings, Owner, Polygon, Prism, Ride, STEP_REACH, Scene,
-    opening_of,
+    Bounds, LIFT_WAIT, Leaves, Opening, Openings, Owner, PlacedReplica, Polygon, Prism, Ride,
+    STEP_REACH, Scene, opening_of,
 };
 use crate::map::{
     Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, set_open, stands,
@@ -346,12 +346,16 @@ impl Simulator {
     fn reaches(&self, thing: ReplicaId) -> Result<bool, Refusal> {
         let scene = Scene::of(&self.truth, self.map);
         let placed = scene.replicas.get(&thing).ok_or(Refusal::NotThere(thing))?;
-        let nearest = Point::new(
-            self.pose.at.x.clamp(placed.bounds.min.x, placed.bounds.max.x),
-            self.pose.at.y.clamp(placed.bounds.min.y, placed.bounds.max.y),
-        );
-        Ok((nearest - self.pose.at).norm() <= self.profile.radius.get() + ARM_REACH)
+        Ok(beyond_arm(placed, self.pose.at, self.profile.radius.get()) <= 0.0)
     }
+}
+
+/// How much farther a thing is than the arm of a robot of some radius reaches, cm; negative within its reach.
+#[must_use]
+pub fn beyond_arm(thing: &PlacedReplica, robot: Point, radius: f64) -> f64 {
+    let Bounds { min, max } = thing.bounds;
+    let nearest = Point::new(robot.x.clamp(min.x, max.x), robot.y.clamp(min.y, max.y));
+    (nearest - robot).norm() - radius - ARM_REACH
 }
 
 impl Simulator {

@@ -67,6 +67,13 @@ pub(crate) fn has_haunt(text: &str) -> bool {
     })
 }
 
+/// Whether a text names a place of the robot's own and nothing else.
+pub(crate) fn is_haunt(text: &str) -> bool {
+    let keys = word_keys(text);
+    let found = longest(&keys.iter().map(String::as_str));
+    matches!(found, Some((taken, Meaning::Haunt(_))) if taken == keys.len())
+}
+
 /// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
 #[must_use]
 pub fn is_command(text: &str) -> bool {

@@ -321,7 +321,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Haunt(Haunt::Charger),
-        "на зарядку|на подзарядку|к зарядке|на зарядную станцию|к зарядной станции|на док станцию|к док станции|to charger|to your charger|to the charger|to the charging station|to your charging station|to the charging point|to the dock|to your dock|to the docking station|to your docking station",
+        "на зарядку|на подзарядку|к зарядке|на зарядную станцию|к зарядной станции|на док станцию|к док станции|to charge|to recharge|to charger|to your charger|to the charger|to the charging station|to your charging station|to the charging point|to the dock|to your dock|to the docking station|to your docking station",
     ),
     (
         Meaning::Haunt(Haunt::Home),

@@ -174,7 +174,7 @@ impl Knowledge<'_> {
             self.of_those_told(noun);
             self.of_those_shown(noun);
         });
-        if self.asked_where() {
+        if self.asked_where() || self.asked_beside() {
             query.each_noun(&mut |noun| self.rooms_there(noun));
         }
         query.each_noun(&mut |noun| {

@@ -554,6 +554,10 @@ impl Asker<'_> {
     /// Whether a text begins as a question of this grammar does, whatever follows.
     #[must_use]
     pub fn begins_as_question(&self, text: &str) -> bool {
+        // "If there is an egg on the counter, bring it"
+        if orders::is_under_condition(text) {
+            return false;
+        }
         // «Я хочу спать, где можно лечь?»
         let told = text.split_once(',').filter(|(told, _)| opening::is_of_me(&word_keys(told)));
         opening::begins_question(&word_keys(text))

@@ -290,11 +290,19 @@ pub struct Conditional {
     pub waits: bool,
 }
 
+/// Whether a text begins with the condition under which it orders.
+pub(super) fn is_under_condition(text: &str) -> bool {
+    let begins = word_keys(text).first().is_some_and(|key| IF.contains(&key.as_str()));
+    begins && !text.trim_end().ends_with('?') && conditional(text).is_some()
+}
+
+/// What an order hinges on begins so.
+const IF: [&str; 7] =
+    ["если", "if", "in case", "provided", "provided that", "в случае если", "unless"];
+
 /// An order under a condition; none where the text has none, or orders nothing under it.
 #[must_use]
 pub fn conditional(text: &str) -> Option<Conditional> {
-    const IF: [&str; 7] =
-        ["если", "if", "in case", "provided", "provided that", "в случае если", "unless"];
     /// What is waited for; of the person and the robot itself nothing is known beforehand.
     const WHEN: [&str; 8] = [
         "когда",
@@ -645,6 +653,10 @@ mod tests {
         check(
             "Проверь, закрыта ли дверь, и если закрыта, открой",
             Some(("закрыта ли дверь?", Some("открой"), None)),
+        );
+        check(
+            "If there's an egg on the counter, put it in the fridge",
+            Some(("is there an egg on the counter?", Some("put it in the fridge"), None)),
         );
         check("Go and see if the door is locked", None);
         check("Принеси, если не трудно, чашку", None);

@@ -36,6 +36,8 @@ pub trait Senses {
         avoided: &[Thing],
         language: Language,
     ) -> Result<Way, String>;
+    /// How much farther than its arm reaches a thing is from the nearest place at which the robot can stand, cm.
+    fn beyond_arm(&self, thing: ReplicaId) -> Option<f64>;
     /// What the robot sees, the nearest first.
     fn visible(&self) -> Vec<ReplicaId>;
     /// Who has a thing that was taken off the map; an empty name for the robot itself.

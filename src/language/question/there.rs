@@ -40,6 +40,12 @@ impl Knowledge<'_> {
         matches!(self.memory.query, Some(Query::Where(_)))
     }
 
+    /// Whether the last question was what is beside something.
+    pub(super) fn asked_beside(&self) -> bool {
+        matches!(&self.memory.query, Some(Query::Find(noun))
+            if noun.restrictions.iter().any(|place| place.rel.is_side()))
+    }
+
     /// What bears or holds a thing, else its room.
     fn place_of(&self, thing: Thing) -> Option<Thing> {
         let support = thing.replica().and_then(|id| self.relations.support_of(id));
@@ -86,8 +92,7 @@ impl Knowledge<'_> {
             return Some(room);
         }
         // «Что рядом с ней? Сколько там фруктов?»: where it is, not in it.
-        if let Some(Query::Find(noun)) = &self.memory.query
-            && noun.restrictions.iter().any(|place| place.rel.is_side())
+        if self.asked_beside()
             && let Some(beside) = topic().filter(|thing| thing.replica().is_some())
         {
             return self.place_of(beside);

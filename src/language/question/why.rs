@@ -31,6 +31,10 @@ impl Knowledge<'_> {
             (Some(query), ..) => {
                 let answer = self.answer(query)?;
                 if answer.facts.is_empty() {
+                    let way = matches!(query, Query::CanReach { .. });
+                    if negated && way && answer.said == Said::Yes {
+                        return Ok(self.why_not_though_so(&answer.text, &answer.topic));
+                    }
                     let plain = || self.why_plain(&answer.text, &answer.topic);
                     return Ok(self.absent(query).unwrap_or_else(plain));
                 }
@@ -156,15 +160,34 @@ impl Knowledge<'_> {
 
     /// Of what rests on no relation – a way, the floor, a value that is not given – the answer itself is the reason.
     fn why_plain(&self, said: &str, named: &[Thing]) -> Draft {
-        let text = said.trim_end_matches('.');
-        let rest =
-            ["Да, ", "Нет, ", "Yes, ", "No, "].iter().find_map(|head| text.strip_prefix(head));
-        let text = rest.unwrap_or(text);
+        let text = without_verdict(said);
         let is_name = named.iter().any(|t| text.starts_with(&self.name(*t)));
         let text = if is_name { text.to_owned() } else { lower_first(text) };
         let text = match self.is_russian() {
             true => format!("по карте так: {text}"),
             false => format!("by the map it is so: {text}"),
+        };
+        Draft::plain(Said::Found, text)
+    }
+
+    /// "Why can't you reach the mug?", where a way leads to it: the arm is too short, or it is not so.
+    fn why_not_though_so(&self, said: &str, topic: &[Thing]) -> Draft {
+        let beyond = |thing: &Thing| Some((*thing, self.senses.beyond_arm(thing.replica()?)?));
+        let text = match (topic.iter().find_map(beyond), self.is_russian()) {
+            (Some((thing, beyond)), true) => format!(
+                "до {} не дотянуться: там, где робот встаёт ближе всего, руке не хватает {}",
+                self.form(thing, Case::Genitive),
+                length(beyond, self.language)
+            ),
+            (Some((thing, beyond)), false) => format!(
+                "{} is out of reach: where I can stand nearest to it, my arm is {} too short",
+                self.name(thing),
+                length(beyond, self.language)
+            ),
+            (None, true) => format!("по карте это не так: {}", lower_first(without_verdict(said))),
+            (None, false) => {
+                format!("by the map it is not so: {}", lower_first(without_verdict(said)))
+            }
         };
         Draft::plain(Said::Found, text)
     }
@@ -526,6 +549,13 @@ impl Knowledge<'_> {
             _ => format!("{relation}({})", words.join(", ")),
         }
     }
+}
+
+/// An answer without its "yes" or "no" and its full stop.
+fn without_verdict(said: &str) -> &str {
+    let text = said.trim_end_matches('.');
+    let rest = ["Да, ", "Нет, ", "Yes, ", "No, "].iter().find_map(|head| text.strip_prefix(head));
+    rest.unwrap_or(text)
 }
 
 /// The preposition that tells a relation.

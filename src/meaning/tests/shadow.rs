@@ -39,6 +39,9 @@ impl Senses for Blind {
     ) -> Result<Way, String> {
         Err(String::new())
     }
+    fn beyond_arm(&self, _: ReplicaId) -> Option<f64> {
+        None
+    }
     fn visible(&self) -> Vec<ReplicaId> {
         Vec::new()
     }

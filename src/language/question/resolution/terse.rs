@@ -142,6 +142,10 @@ impl Asker<'_> {
         if is_back(&text) {
             return Language::of(&text).pick("вернись", "come back").to_owned();
         }
+        // «А теперь на зарядку»
+        if let Some(haunt) = Anew::of(&text, false).filter(|anew| command::is_haunt(anew.said)) {
+            return format!("{} {}", Language::of(&text).pick("поезжай", "go"), haunt.said);
+        }
         if command::has_haunt(&text) {
             return format!("{} {text}", Language::of(&text).pick("поезжай", "go"));
         }
@@ -232,6 +236,12 @@ impl Asker<'_> {
         }
         if has_clauses(anew.said) {
             return ordered.with_verb(anew.said).filter(|_| is_open);
+        }
+        // To a place of its own it goes itself, whatever it carried and whithersoever.
+        let goes_itself = ordered.object.is_none() || !anew.denies && !is_open;
+        if anew.amends && goes_itself && command::is_haunt(anew.said) {
+            let goes = Language::of(anew.said).pick("поезжай", "go");
+            return Some(format!("{goes} {}", anew.said));
         }
         let plain = self.plain(anew.said);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
