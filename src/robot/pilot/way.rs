@@ -178,9 +178,13 @@ impl Pilot<'_, '_> {
         Some(Sighting::Replica { replica, area, frame })
     }
 
-    /// Back from what was touched on a way.
-    fn back_off(&mut self, way: Vector, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
-        let goal = self.to_odometry(self.at() - way.normalize() * AWAY);
+    /// A little back on a way, in the frame of the odometry.
+    fn behind(&self, way: Vector) -> Point {
+        self.to_odometry(self.at() - way.normalize() * AWAY)
+    }
+
+    /// Back from what was touched, to a place in the frame of the odometry.
+    fn back_off(&mut self, goal: Point, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
         match self.ask(watch, |body, watch| body.follow(&[goal], None, watch)) {
             Ok(()) | Err(Unfinished::Met(_)) => self.confirm_pose(watch),
             Err(unfinished) => Err(unfinished),
@@ -300,11 +304,16 @@ impl Pilot<'_, '_> {
                 Ok(()) => {}
                 Err(Unfinished::Met(bump)) => {
                     contacts += 1;
-                    self.confirm_pose(watch)?;
+                    let back = self.behind(way);
+                    if let Err(elsewhere) = self.confirm_pose(watch) {
+                        // Wherever that is, it stands against something: from there no way begins.
+                        self.back_off(back, watch)?;
+                        return Err(elsewhere);
+                    }
                     // Below or above what the laser sees: it stands before the body.
                     let felt = self.front(way);
                     let is_new = !self.sees_beside() && !self.may_be_known(&felt);
-                    self.back_off(way, watch)?;
+                    self.back_off(self.behind(way), watch)?;
                     if is_new || contacts >= CONTACTS {
                         self.met.clear();
                         self.felt = felt;
@@ -333,7 +342,7 @@ impl Pilot<'_, '_> {
                 Ok(()) => self.confirm_pose(watch)?,
                 Err(Unfinished::Met(_)) => {
                     self.confirm_pose(watch)?;
-                    self.back_off(self.away(), watch)?;
+                    self.back_off(self.behind(self.away()), watch)?;
                 }
                 Err(unfinished) => return Err(unfinished),
             }
