@@ -596,10 +596,10 @@ impl Hearing<'_, '_> {
     }
 
     fn not_begun(&mut self, order: &str) -> Result<(), Error> {
-        let language = self.spoken(order);
+        let (language, said) = (self.spoken(order), order.trim_end_matches('.'));
         let text = match language {
-            Language::Russian => format!("Не начато: «{order}»."),
-            Language::English => format!("Not begun: \"{order}\"."),
+            Language::Russian => format!("Не начато: «{said}»."),
+            Language::English => format!("Not begun: \"{said}\"."),
         };
         self.put(Outcome::NotBegun { order: order.to_owned() }, &text, language)
     }
