@@ -14,6 +14,7 @@ mod compare;
 mod elided;
 mod frame;
 mod passing;
+mod taken_up;
 mod together;
 mod used;
 mod way;
