@@ -23,12 +23,12 @@ fn ask(engine: &Engine, question: &str, memory: &Memory) -> Answer {
     answer.unwrap_or_else(|doubt| panic!("{question}: {}", doubt.text))
 }
 
-fn names(answer: &Answer) -> BTreeSet<String> {
+pub(crate) fn names(answer: &Answer) -> BTreeSet<String> {
     answer.symbols.iter().cloned().collect()
 }
 
 /// The English name of the kind of a thing.
-fn kind(world: &World, name: &str) -> String {
+pub(crate) fn kind(world: &World, name: &str) -> String {
     let replica = world.replicas.values().find(|replica| replica.name == name).expect("a thing");
     let kind = world.types.object.get(world.objects[&replica.object].object_type);
     kind.expect("a kind").name_en.to_lowercase()

@@ -7,8 +7,8 @@ use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_language::question::Answer;
 use orthoframe_language::{Case, NounPhrase, Number, WordHints, english};
-use orthoframe_map::World;
 
+use crate::scope::{kind, names};
 use crate::talk::engine;
 
 const MAPS: [&str; 3] = [
@@ -20,16 +20,6 @@ const MAPS: [&str; 3] = [
 fn ask(engine: &Engine, question: &str) -> Answer {
     let answer = engine.ask(question, &mut Memory::default()).expect("there is a map");
     answer.unwrap_or_else(|doubt| panic!("{question}: {}", doubt.text))
-}
-
-fn names(answer: &Answer) -> BTreeSet<String> {
-    answer.symbols.iter().cloned().collect()
-}
-
-fn kind(world: &World, name: &str) -> String {
-    let replica = world.replicas.values().find(|replica| replica.name == name).expect("a thing");
-    let kind = world.types.object.get(world.objects[&replica.object].object_type);
-    kind.expect("a kind").name_en.to_lowercase()
 }
 
 /// Every room with the things in it, by its names in both languages.
