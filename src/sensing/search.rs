@@ -42,6 +42,8 @@ const MOST_STRIPS: usize = 1_000_000;
 /// Strips that are opened together, and that a thread takes at once.
 const BATCH: usize = 2048;
 const SHARE: usize = 64;
+/// Strips by which it is told whether looking at several turns together pays.
+const TRIED: usize = 64;
 /// See [`Pyramid::worth`].
 const WORTH: usize = 512;
 /// More threads gain little.
@@ -356,7 +358,8 @@ impl Pyramid {
                 let row = 2 * (job % rows);
                 for column in (0..columns).step_by(STRIP) {
                     // While that spares more than it costs.
-                    if turns.len() > 1 && (looked < 64 || (looked - passed) * turns.len() > looked)
+                    if turns.len() > 1
+                        && (looked < TRIED || (looked - passed) * turns.len() > looked)
                     {
                         looked += 1;
                         if self.swept.sums(marks, column as i32, row as i32, *rough).is_none() {
