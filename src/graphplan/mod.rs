@@ -78,7 +78,7 @@ use std::time::Instant;
 pub use cheapest::solve_cheapest;
 pub use extract::solve_plainly;
 pub use plan::{Flaw, Plan, validate};
-pub use portfolio::{bounded, milestones, solve_any, solve_anytime, solve_soon};
+pub use portfolio::{bounded, milestones, shorten, solve_any, solve_anytime, solve_soon};
 pub use proof::{Learned, solve, solve_learning};
 pub use tried::{Attempt, Log, Way};
 

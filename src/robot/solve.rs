@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use super::grounding::grounded;
 use super::helping::keep_what_helps;
+use super::passable::{Found, Passable, Refused, again};
+use super::soon::improve;
 use super::timing::Clock;
 use super::wishes::{self, Wishes};
 use crate::graphplan::{
@@ -13,7 +15,7 @@ use crate::strips::{
     Clash, Domain, FactId, Obstacle, Phrases, Problem, RuleFaults, Said, Task, Wording,
     explain_unreachable,
 };
-use crate::units::{Bilingual, Language, name_key};
+use crate::units::{Language, name_key};
 
 /// What planning came to, with the task that it was about.
 #[derive(Debug, Clone)]
@@ -291,7 +293,7 @@ pub(super) fn solve_on(
 
 /// The same, and preferences are none of its business.
 pub(super) fn solve_goal(
-    floor: Option<&mut dyn Passable>,
+    mut floor: Option<&mut dyn Passable>,
     domain: &Domain,
     problem: &Problem,
     limits: &Limits,
@@ -299,19 +301,22 @@ pub(super) fn solve_goal(
 ) -> Result<Solved, RuleFaults> {
     // What the floor refuses is planned anew without it.
     let many = limits.one_of_several();
-    let limits = if floor.is_some() { &many } else { limits };
+    let each = if floor.is_some() { &many } else { limits };
     let mut search = |task: &Task| match wanted {
-        Wanted::Shortest => graphplan::solve(task, limits),
-        Wanted::Any => graphplan::solve_any(task, limits),
-        Wanted::Anytime => graphplan::solve_anytime(task, limits),
-        Wanted::Plain => graphplan::solve_plainly(task, limits),
+        Wanted::Shortest => graphplan::solve(task, each),
+        Wanted::Any => graphplan::solve_any(task, each),
+        Wanted::Anytime => graphplan::solve_anytime(task, each),
+        Wanted::Plain => graphplan::solve_plainly(task, each),
     };
-    let (task, found) = found_on(floor, domain, problem, limits, &mut search)?;
-    told(domain, problem, task, found, wanted, limits)
+    let (task, mut found) = found_on(again(&mut floor), domain, problem, each, &mut search)?;
+    let bound = match &mut found.0 {
+        Outcome::Plan(plan) if wanted == Wanted::Any => {
+            Some(improve(floor, (domain, problem), &task, plan, limits))
+        }
+        _ => None,
+    };
+    told(domain, problem, task, found, bound, wanted, limits)
 }
-
-/// What a search came to, and which actions the floor refuses where there is no plan for that reason.
-pub(super) type Found = (Outcome, Vec<Refused>);
 
 /// Grounds a problem and searches for a plan that the floor does not refuse.
 fn found_on(
@@ -333,27 +338,6 @@ fn found_on(
         None => (search(&task), Vec::new()),
     };
     Ok((task, found))
-}
-
-/// A floor on which plans are driven, as a search for one sees it; this file knows no missions.
-pub(super) trait Passable {
-    /// Searches for a plan that can be driven. The task is left without the actions that the floor refuses; where there is
-    /// no plan for that reason alone, it is told which.
-    fn search(
-        &mut self,
-        given: (&Domain, &Problem),
-        task: &mut Task,
-        limits: &Limits,
-        search: &mut dyn FnMut(&Task) -> Outcome,
-    ) -> Found;
-}
-
-/// An action that the rules allow and the floor does not.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Refused {
-    pub action: Said,
-    /// What bars its way, and what would open it; none where the robot's start is not known.
-    pub why: Option<Bilingual>,
 }
 
 /// The plan that takes the least time, for a robot that tries its plans itself; none where the rules do not tell where it
@@ -386,7 +370,7 @@ pub(super) fn timed(
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
     let takes = found.0.plan().map(|plan| plan.cost(&task));
-    let mut solved = told(domain, problem, task, found, Wanted::Shortest, limits)?;
+    let mut solved = told(domain, problem, task, found, None, Wanted::Shortest, limits)?;
     // Of its steps nothing is proven.
     (solved.is_shortest, solved.at_least) = (false, 0);
     solved.time = takes.map(|takes| DrivenTime { takes, at_least: at_least.min(takes) });
@@ -411,7 +395,7 @@ pub(super) fn solve_again(
         outcome
     };
     let (task, found) = found_on(floor, domain, problem, limits, &mut search)?;
-    Ok((told(domain, problem, task, found, Wanted::Shortest, limits)?, now_learned))
+    Ok((told(domain, problem, task, found, None, Wanted::Shortest, limits)?, now_learned))
 }
 
 /// What became of a plan when assumptions were withdrawn.
@@ -476,14 +460,6 @@ pub(super) fn solve_without(
     Ok(Replanned { before, after, withdrawn: gone, learned_before })
 }
 
-/// The same floor for one search of several.
-pub(super) fn again<'f>(floor: &'f mut Option<&mut dyn Passable>) -> Option<&'f mut dyn Passable> {
-    match floor {
-        Some(floor) => Some(&mut **floor),
-        None => None,
-    }
-}
-
 /// Of a goal of several disjuncts the one that the plan meets; the operator that only says so is no step.
 fn choose_disjunct(task: &mut Task, outcome: &mut Outcome) {
     if task.goal_steps == 0 {
@@ -506,23 +482,16 @@ pub(super) fn told(
     problem: &Problem,
     mut task: Task,
     (mut outcome, refused): Found,
+    bound: Option<usize>,
     wanted: Wanted,
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
     // The operator that only says that a goal is met is no step of the bound either.
     let said = usize::from(task.goal_steps > 0);
-    let bounded = match outcome {
-        Outcome::Plan(ref mut plan) if wanted == Wanted::Any => {
-            let found = std::mem::take(plan);
-            let (found, at_least) = graphplan::bounded(&task, found, limits);
-            *plan = found;
-            Some(at_least.saturating_sub(said))
-        }
-        _ => None,
-    };
+    let bound = bound.map(|bound| bound.saturating_sub(said));
     choose_disjunct(&mut task, &mut outcome);
     let at_least = match &outcome {
-        Outcome::Plan(plan) => bounded.unwrap_or(plan.steps.len()),
+        Outcome::Plan(plan) => bound.unwrap_or(plan.steps.len()),
         Outcome::LimitReached(known) => known.at_least,
         Outcome::NoPlan { .. } => 0,
     };

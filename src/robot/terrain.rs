@@ -21,7 +21,8 @@ use super::directive::Directive;
 use super::event::Surprise;
 use super::grounding::grounded;
 use super::mission::{Mission, refused_on_floor};
-use super::solve::{self, Found, Passable, Refused, Replanned, Solved, Wanted, timed, told};
+use super::passable::{Found, Passable, Refused};
+use super::solve::{self, Replanned, Solved, Wanted, timed, told};
 use super::timing::{Clock, leave_out};
 
 /// The floor that a scenario's plan is to be driven on.
@@ -148,6 +149,18 @@ impl Passable for Terrain<'_> {
             Outcome::LimitReached(_) => (outcome, Vec::new()),
         }
     }
+
+    fn lets_pass(
+        &mut self,
+        (domain, problem): (&Domain, &Problem),
+        task: &Task,
+        plan: &Plan,
+        limits: &Limits,
+    ) -> bool {
+        self.trial(domain, problem, limits).is_none_or(|trial| {
+            self.refused_of(domain, task, plan.operators(), &trial, limits).is_none()
+        })
+    }
 }
 
 /// As [`solve`](fn@super::solve), on a floor where there is one: of what the rules allow that has no way there.
@@ -216,7 +229,8 @@ pub fn solve_quickest(
         Ok(task) => task,
         Err(limit) => {
             let found = (Outcome::LimitReached(Unfinished::in_grounding(limit)), Vec::new());
-            return told(domain, problem, Task::default(), found, Wanted::Any, limits).map(Ok);
+            return told(domain, problem, Task::default(), found, None, Wanted::Any, limits)
+                .map(Ok);
         }
     };
     let unknown = terrain.clock.charge(domain, &mut task);

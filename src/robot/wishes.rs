@@ -8,7 +8,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashSet};
 
-use super::solve::{Passable, Solved, Wanted, again, solve_goal};
+use super::passable::{Passable, again};
+use super::solve::{Solved, Wanted, solve_goal};
 use crate::graphplan::{Limits, Outcome};
 use crate::strips::{Domain, Preference, Problem, RuleFaults};
 use crate::units::{Gather as _, Language};

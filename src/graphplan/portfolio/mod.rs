@@ -69,6 +69,16 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
     telling(limits, |limits| soon(task, limits), |outcome| outcome)
 }
 
+/// Makes a plan shorter, piece by piece, within [`Limits::shorten`] and [`Limits::shorten_effort`]: of no more actions, no
+/// dearer, and not proven to be the shortest.
+#[must_use]
+pub fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+    match limits.shorten {
+        0 => plan,
+        _ => rounds::shortened(task, plan, limits, Some(shorten::shorten)),
+    }
+}
+
 fn soon(task: &Task, limits: &Limits) -> Outcome {
     /// Turns of the graph's extraction at a level, when forward search is stuck.
     const FEW_TURNS: u32 = 3;
@@ -77,11 +87,7 @@ fn soon(task: &Task, limits: &Limits) -> Outcome {
     const FEW_STEPS: usize = 50;
     let shortened = |plan: Plan| {
         limits.tell_of(&plan);
-        Outcome::Plan(if limits.shorten == 0 {
-            plan
-        } else {
-            rounds::shortened(task, plan, limits, Some(shorten::shorten))
-        })
+        Outcome::Plan(shorten(task, plan, limits))
     };
     let found = |found| match found {
         any::Found::Plan(plan) => Some(shortened(plan)),
