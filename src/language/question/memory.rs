@@ -215,10 +215,14 @@ impl Memory {
         if answer.things.is_empty() {
             self.last.clone_from(&answer.compared);
         }
-        // "Where do the doors lead? Which of them is wider?"
-        if matches!(answer.query, Query::Leads(_)) {
-            let told = answer.topic.iter().filter(|t| !answer.things.contains(t));
-            self.last = told.copied().collect();
+        // "Where do the doors lead? Which of them is wider?", "What do the books lie on? Where are they?"
+        let told = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied().collect();
+        match &answer.query {
+            Query::Leads(_) => self.last = told(),
+            query if is_of_whereabouts(query) && answer.things.len() < 2 && told().len() > 1 => {
+                self.last = told();
+            }
+            _ => {}
         }
         if self.last.len() > 1 {
             self.listed.clone_from(&self.last);
@@ -328,15 +332,28 @@ pub(super) struct Exchange {
     aside: Vec<Thing>,
 }
 
+/// Whether what is found is where things are, and they are what is spoken of.
+fn is_of_whereabouts(query: &Query) -> bool {
+    match query {
+        Query::Anchor { .. } | Query::RoomOf(_) => true,
+        Query::Several(all) => all.iter().all(is_of_whereabouts),
+        _ => false,
+    }
+}
+
 impl Exchange {
     fn of(answer: &Answer) -> Self {
         let others = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied();
         let found = answer.things.iter().copied();
         let mut plural = false;
-        answer.query.clone().first_noun(|noun| plural = noun.plural);
+        answer.query.clone().first_noun(|noun| {
+            // "What do they lie on?"
+            plural = noun.plural || noun.head.things.as_ref().is_some_and(|all| all.len() > 1);
+        });
+        plural |= matches!(answer.query, Query::Several(_));
         match &answer.query {
             // "Which rooms are the mugs in?": an order is of none of them more than of the others.
-            Query::Anchor { .. } | Query::RoomOf(_) if plural && others().count() > 1 => {
+            query if is_of_whereabouts(query) && plural && others().count() > 1 => {
                 let topics = others().chain(found).collect();
                 Self { topics, listed: others().collect(), ..Self::default() }
             }

@@ -230,7 +230,8 @@ impl Answer {
         let texts: Vec<String> = answers.iter().map(|a| a.text.clone()).collect();
         for answer in answers {
             queries.push(answer.query);
-            whole.things.extend(answer.things);
+            let found = answer.things.into_iter();
+            whole.things.extend(found.filter(|t| !whole.things.contains(t)).collect::<Vec<_>>());
             whole.symbols.extend(answer.symbols);
             whole.facts.extend(answer.facts);
             whole.topic.extend(answer.topic);

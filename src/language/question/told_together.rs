@@ -325,7 +325,8 @@ impl Knowledge<'_> {
             _ => None,
         };
         let those = those.and_then(|those| those.head.things.as_ref());
-        if those.is_some_and(|those| those.len() > 1 && those != last) {
+        let tells_of = |those: &Vec<Thing>| last.iter().all(|thing| those.contains(thing));
+        if those.is_some_and(|those| those.len() > 1 && !tells_of(those)) {
             return Vec::new();
         }
         let fit = |things: &[Thing]| {

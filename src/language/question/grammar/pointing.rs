@@ -65,6 +65,30 @@ impl Sentence<'_> {
         (shows && is_thing && !placed).then_some(Tokens(after))
     }
 
+    /// What follows a "these" that is said of no noun, and whom it means: they; a "this" behind "is" or "on": it. So is a
+    /// "that" which lies or stands somewhere; of others the exchange tells what they mean.
+    fn after_bare<'a>(&self, input: Tokens<'a>) -> Option<(Tokens<'a>, Mark)> {
+        let [shown, after @ ..] = input.0 else { return None };
+        let words = self.keys.get(shown.from as usize..shown.to as usize)?;
+        // "Is this open?", but "this open door"
+        let values = after.iter().take_while(|t| matches!(t.kind, Tok::Value(_))).count();
+        if shown.kind != Tok::Mark(Mark::The) || begins_noun(Tokens(&after[values..])) {
+            return None;
+        }
+        if vocabulary::taken_by(Mark::These, words) == Some(words.len()) {
+            return Some((Tokens(after), Mark::Pronoun(Pronoun::They)));
+        }
+        let is_a = |token: Option<&Token>, mark: fn(&Mark) -> bool| match token.map(|t| &t.kind) {
+            Some(Tok::Mark(said)) => mark(said),
+            _ => false,
+        };
+        let before = self.tokens.iter().take_while(|token| token.from < shown.from).last();
+        let [word] = words else { return None };
+        let means_it = is_a(before, |m| matches!(m, Mark::Be | Mark::Link(_)))
+            && (word == "this" || word == "that" && is_a(after.first(), |m| *m == Mark::Be));
+        means_it.then_some((Tokens(after), Mark::Pronoun(Pronoun::Any)))
+    }
+
     /// Whether a "this" or "those" stands without a noun: it points at what was spoken of.
     pub(in super::super) fn points(&self) -> bool {
         const THESE: [&str; 6] = ["this", "that", "these", "those", "это", "эти"];
@@ -123,7 +147,10 @@ impl Sentence<'_> {
         let (rest, mark) = match self.mark(input, |m| matches!(m, Mark::All | Mark::Each)) {
             Err(_) => match self.after_these_things(input).or_else(any) {
                 Some(rest) => (rest, Mark::Pronoun(Pronoun::They)),
-                None => self.mark(input, is_person)?,
+                None => match self.after_bare(input) {
+                    Some(found) => found,
+                    None => self.mark(input, is_person)?,
+                },
             },
             // "all of them"; "Are there pillows on both?"
             Ok((after, _)) if let Some(rest) = self.after_these_things(after) => {
