@@ -54,6 +54,7 @@ mod meanings;
 mod mission_plans;
 mod odd_floors;
 mod odd_worlds;
+mod one_tongue;
 mod openings;
 mod orders;
 mod partition;

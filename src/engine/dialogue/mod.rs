@@ -587,7 +587,7 @@ impl Hearing<'_, '_> {
                 (Outcome::Misheard(Box::new(misheard)), text)
             }
             other => {
-                let text = other.say(self.engine.world()?, language);
+                let text = other.say(language);
                 (Outcome::Refused(Box::new(other)), text)
             }
         };
