@@ -57,6 +57,7 @@ mod odd_worlds;
 mod one_tongue;
 mod openings;
 mod orders;
+mod own_places;
 mod partition;
 mod passframes;
 mod places_of_orders;
