@@ -5,6 +5,7 @@ mod agreement;
 mod architecture;
 mod asked_back;
 mod assembly;
+mod between_rooms;
 mod bounded;
 mod broken_scenarios;
 mod chatter;
