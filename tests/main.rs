@@ -8,6 +8,7 @@ mod assembly;
 mod between_rooms;
 mod bounded;
 mod broken_scenarios;
+mod called_after;
 mod chatter;
 mod cli;
 mod commands;
