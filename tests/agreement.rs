@@ -240,7 +240,7 @@ fn nothing_is_taken_through_shut_doors() {
     let dir = tempfile::tempdir().unwrap();
     let mut engine = home(&dir, HOME);
     let refused = order(&mut engine, "Bring Egg 1").unwrap_err();
-    let said = refused.say(engine.world().unwrap(), Language::English);
+    let said = refused.say(Language::English);
     assert_eq!(
         said,
         "Egg 1 is in Cabinet 1, which is shut, and the robot does not open doors of furniture."

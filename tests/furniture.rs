@@ -128,9 +128,8 @@ impl House {
 
     /// Carries out an order in a truth that is as the robot believes; how that truth is then.
     fn order(&mut self, order: &str) -> Result<(TaskAnswer, World), String> {
-        let said = |engine: &Engine, error: &orthoframe::engine::Error| {
-            error.say(engine.world().unwrap(), Language::of(order))
-        };
+        let said =
+            |engine: &Engine, error: &orthoframe::engine::Error| error.say(Language::of(order));
         let commands = self.engine.understand(order).map_err(|e| said(&self.engine, &e))?;
         let mut truth = self.engine.world_now().unwrap().clone();
         let mut moved = false;

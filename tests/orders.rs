@@ -32,7 +32,7 @@ fn golden(world: &World, text: &str, path: &str) {
             let said = |g: &GoalFact| format!("{}({})", g.predicate, g.args.join(", "));
             answer.goal.iter().map(said).collect::<Vec<_>>().join("; ")
         }
-        Err(error) => error.say(world, Language::of(order)),
+        Err(error) => error.say(Language::of(order)),
     };
     let said: String = text
         .lines()
@@ -402,7 +402,7 @@ fn a_table_is_cleared_and_a_cup_is_put_away() {
     // What is on it is kept there: nobody said where it should go instead.
     let engine = Engine::in_memory(lab(), None).unwrap();
     let refused = engine.perform("Clear the desk", &mut |_| {}).unwrap_err();
-    let said = refused.say(engine.world().unwrap(), Language::English);
+    let said = refused.say(Language::English);
     assert!(said.contains("kept there: Battery 1"), "{said}");
 }
 
@@ -413,7 +413,7 @@ fn read(engine: &Engine, text: &str) -> Result<(), String> {
         Some(parts) => engine.read_ahead(&parts, &Memory::default()).err(),
         None => engine.understand(text).err(),
     };
-    error.map_or(Ok(()), |e| Err(e.say(engine.world().unwrap(), Language::of(text))))
+    error.map_or(Ok(()), |e| Err(e.say(Language::of(text))))
 }
 
 /// Two orders in one sentence are both done, or the sentence is refused; where one half cannot be followed, nothing is

@@ -24,7 +24,7 @@ fn heard(engine: &Engine, lines: &[&str]) -> Result<Vec<Command<Entity>>, String
     for line in lines {
         last = engine
             .understand_in(line, &mut memory)
-            .map_err(|e| e.say(world, orthoframe_language::Language::of(line)));
+            .map_err(|e| e.say(orthoframe_language::Language::of(line)));
     }
     last
 }

@@ -7,6 +7,7 @@ use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, InOrder as _, MapId, ReplicaId};
 
+use super::error::in_both;
 use super::{Error, Method, RequestError, State};
 
 impl State {
@@ -18,7 +19,9 @@ impl State {
         let world = self.world()?;
         match entity {
             Entity::Replica(id) if world.has_trait(id, "portable") => Ok(id),
-            other => Err(RequestError::NotPortable { name: world.name(other).to_owned() }.into()),
+            other => {
+                Err(RequestError::NotPortable { name: in_both(world, world.name(other)) }.into())
+            }
         }
     }
 
@@ -49,7 +52,7 @@ impl State {
                 Ok(fact(predicate::HANDED_OVER, to.anchor))
             }
             (_, Entity::Replica(person)) if world.has_trait(person, "person") => {
-                Err(RequestError::NotPutThere { name: name(to.anchor) }.into())
+                Err(RequestError::NotPutThere { name: in_both(world, &name(to.anchor)) }.into())
             }
             (Relation::In, Entity::Replica(support)) => {
                 if !self.must_be_opened(support)? {
@@ -79,7 +82,9 @@ impl State {
             (Relation::On | Relation::In | Relation::At, Entity::Map(map)) => {
                 self.laid_on_storey(id, map, relations)
             }
-            (_, anchor) => Err(RequestError::NotPutThere { name: name(anchor) }.into()),
+            (_, anchor) => {
+                Err(RequestError::NotPutThere { name: in_both(world, &name(anchor)) }.into())
+            }
         }
     }
 
@@ -97,7 +102,8 @@ impl State {
         anchor: ReplicaId,
         relations: &Relations,
     ) -> Result<Vec<GoalFact>, Error> {
-        let name = self.world()?.name(Entity::Replica(anchor)).to_owned();
+        let world = self.world()?;
+        let name = world.name(Entity::Replica(anchor)).to_owned();
         let facts = facts_of_map(self.uncarried()?, relations);
         let about = |predicate: &str, at: usize, give: usize| {
             let found =
@@ -109,7 +115,7 @@ impl State {
             None => {
                 let place = about(predicate::THING_AT_PLACE, 0, 1)
                     .or_else(|| about(predicate::PLACE_BY, 1, 0))
-                    .ok_or(RequestError::NotAPlace { name })?;
+                    .ok_or_else(|| RequestError::NotAPlace { name: in_both(world, &name) })?;
                 (predicate::THING_AT_PLACE, place)
             }
         };
@@ -135,7 +141,8 @@ impl State {
     /// # Errors
     /// It has no inside, or the robot does not get in.
     pub(super) fn must_be_opened(&self, support: ReplicaId) -> Result<bool, Error> {
-        let name = || self.world().map(|w| w.name(Entity::Replica(support)).to_owned());
+        let world = self.world()?;
+        let name = || in_both(world, world.name(Entity::Replica(support)));
         let around = self.around()?;
         let now = around.uncarried();
         let area = now.replicas.get(&support).map(|r| r.area);
@@ -147,8 +154,8 @@ impl State {
         match hollow {
             Hollow::Open => Ok(false),
             Hollow::Shut if self.can_open(support) => Ok(true),
-            Hollow::Shut => Err(RequestError::Shut { name: name()? }.into()),
-            Hollow::No => Err(RequestError::NotHollow { name: name()? }.into()),
+            Hollow::Shut => Err(RequestError::Shut { name: name() }.into()),
+            Hollow::No => Err(RequestError::NotHollow { name: name() }.into()),
         }
     }
 
@@ -202,8 +209,8 @@ impl State {
                 return Ok(vec![GoalFact { predicate: predicate.to_owned(), args }]);
             }
         }
-        let area = world.name(Entity::Area(area)).to_owned();
-        Err(RequestError::NoSpace { thing: name, area }.into())
+        let area = in_both(world, world.name(Entity::Area(area)));
+        Err(RequestError::NoSpace { thing: in_both(world, &name), area }.into())
     }
 
     /// A thing that is to be on a storey: it stays where it is when it is there, else goes into the room nearest to
@@ -239,9 +246,9 @@ impl State {
                 laid => return laid,
             }
         }
-        let storey = world.name(Entity::Map(map)).to_owned();
-        let thing = world.name(Entity::Replica(thing)).to_owned();
-        Err(RequestError::NoSpace { thing, area: storey }.into())
+        let [area, thing] = [Entity::Map(map), Entity::Replica(thing)]
+            .map(|entity| in_both(world, world.name(entity)));
+        Err(RequestError::NoSpace { thing, area }.into())
     }
 
     /// Whether a thing has space for another, where the robot can reach it.

@@ -12,6 +12,7 @@ use crate::robot::GoalFact;
 use crate::semantics::{Relations, predicate};
 use crate::units::ReplicaId;
 
+use super::error::in_both;
 use super::task::thing_of;
 use super::{Error, RequestError, State};
 
@@ -63,7 +64,7 @@ impl State {
         for id in self.carried_by(commands, goals)? {
             let Some(around) = relations.shut_in(id) else { continue };
             if !self.can_open(around) {
-                let (thing, container) = (name(id), name(around));
+                let [thing, container] = [id, around].map(|id| in_both(world, &name(id)));
                 return Err(RequestError::ShutIn { thing, container }.into());
             }
             let shut =

@@ -7,9 +7,8 @@ fn en(words: &Bilingual) -> &str {
     words.say(Language::English)
 }
 
-impl RequestError {
-    /// The fault in English; `called` gives the English name of what the map calls so.
-    pub(super) fn told(&self, called: &dyn Fn(&str) -> String) -> String {
+impl InEnglish for RequestError {
+    fn english(&self) -> String {
         match self {
             Self::OutOfRange { what, value, low, high } => {
                 format!("{what} = {value}, and it must be from {low} to {high}")
@@ -36,25 +35,27 @@ impl RequestError {
             Self::Fact { text } => format!("“{text}” cannot be read as a fact"),
             Self::UnknownName { name, .. } => format!("the map has no name “{name}”"),
             Self::AmbiguousName { name, candidates } => {
-                format!("the name “{name}” can mean several: {candidates}")
+                format!("the name “{name}” can mean several: {}", en(candidates))
             }
             Self::UnknownRelation { name, .. } => format!("there is no relation “{name}”"),
             Self::NotThere { thing, place } => {
-                format!("{} is not where you say: {}", called(thing), called(place))
+                format!("{} is not where you say: {}", en(thing), en(place))
             }
-            Self::NotAPlace { name } => format!("the robot cannot stand at {}", called(name)),
+            Self::NotAPlace { name } => format!("the robot cannot stand at {}", en(name)),
             Self::OtherMap { from, to } => format!("“{from}” and “{to}” are on different maps"),
             Self::Nowhere { at, map, .. } => {
-                format!("the point {at} lies in no room of the map “{map}”")
+                format!("the point {at} lies in no room of the map “{}”", en(map))
             }
             Self::BadPose { text, reason } => format!("“{text}” is no pose: {}", en(reason)),
             Self::NoReport { text, word } => {
                 format!("“{text}” cannot be read as a report of a position, from “{word}” on")
             }
             Self::NoSuchPlace { reason } => format!("the map has no such place: {}", en(reason)),
-            Self::WhichMap { candidates } => format!("the domain has several maps: {candidates}"),
+            Self::WhichMap { candidates } => {
+                format!("the domain has several maps: {}", en(candidates))
+            }
             Self::NoFloorThere { name } => {
-                format!("there is no floor for the robot on that side of {}", called(name))
+                format!("there is no floor for the robot on that side of {}", en(name))
             }
             Self::NoFloorAt { at } => {
                 format!("the robot does not fit at the point {at}, nor close by")
@@ -62,90 +63,82 @@ impl RequestError {
             Self::OnlyGoneTo { at } => format!("to the point {at} I can only go"),
             Self::NotPutThere { name } => format!(
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}",
-                called(name)
+                en(name)
             ),
             Self::Untimed { names } => format!(
-                "the map does not tell where this is: {names}; how long the way takes is unknown"
+                "the map does not tell where this is: {}; how long the way takes is unknown",
+                en(names)
             ),
             Self::NoCharger => "the map has no place to charge".to_owned(),
             Self::NoStart => "the map does not tell where the robot belongs".to_owned(),
             Self::NoLift => "there is no lift on this floor".to_owned(),
-            Self::NotPortable { name } => format!("the robot does not carry {}", called(name)),
+            Self::NotPortable { name } => format!("the robot does not carry {}", en(name)),
             Self::NotHollow { name } => {
-                format!("nothing can be put into {}: it has no inside", called(name))
+                format!("nothing can be put into {}: it has no inside", en(name))
             }
             Self::Shut { name } => {
-                format!("{} is shut, and the robot does not open doors of furniture", called(name))
+                format!("{} is shut, and the robot does not open doors of furniture", en(name))
             }
             Self::ShutIn { thing, container } => format!(
                 "{} is in {}, which is shut, and the robot does not open doors of furniture",
-                called(thing),
-                called(container)
+                en(thing),
+                en(container)
             ),
-            Self::NoSpace { thing, area } => format!(
-                "in {} there is nothing that {} could be put on",
-                called(area),
-                called(thing)
-            ),
+            Self::NoSpace { thing, area } => {
+                format!("in {} there is nothing that {} could be put on", en(area), en(thing))
+            }
             Self::Locked { name } => {
-                format!("{} is locked, and the robot has no keys to furniture", called(name))
+                format!("{} is locked, and the robot has no keys to furniture", en(name))
             }
             Self::WhichQueued { waiting } => {
                 format!("it is not said which task: {waiting} are waiting")
             }
             Self::NoBin { thing } => {
-                format!("the map has nothing into which to throw {}", called(thing))
+                format!("the map has nothing into which to throw {}", en(thing))
             }
             Self::NotADoor { name } => format!(
                 "{} is no door between rooms, and the robot opens and shuts no others",
-                called(name)
+                en(name)
             ),
-            Self::LeadsOutside { name } => format!(
-                "{} leads outside, and the robot uses only doors between rooms",
-                called(name)
-            ),
+            Self::LeadsOutside { name } => {
+                format!("{} leads outside, and the robot uses only doors between rooms", en(name))
+            }
             Self::NotCleaned { name } => format!(
                 "the robot tidies up, and does not wash or wipe: {} stays as it is",
-                called(name)
+                en(name)
             ),
             Self::KeptThere { things, name } => {
-                let things: Vec<String> = things.iter().map(|one| called(one)).collect();
-                format!("all that lies on {} is kept there: {}", called(name), things.join(", "))
+                let things: Vec<&str> = things.iter().map(en).collect();
+                format!("all that lies on {} is kept there: {}", en(name), things.join(", "))
             }
             Self::AtHome { thing, home } => {
-                format!("{} lies where it is kept: {}", called(thing), called(home))
+                format!("{} lies where it is kept: {}", en(thing), en(home))
             }
             Self::NotADevice { name } => {
-                format!("{} can be switched neither on nor off", called(name))
+                format!("{} can be switched neither on nor off", en(name))
             }
-            Self::Homeless { thing } => format!("it is not known where {} belongs", called(thing)),
+            Self::Homeless { thing } => format!("it is not known where {} belongs", en(thing)),
             Self::NoHome { thing, home } => {
-                format!("{} is kept on \"{home}\", and the map has no such thing", called(thing))
+                format!("{} is kept on \"{home}\", and the map has no such thing", en(thing))
             }
             Self::PastIsPast => "the map’s past cannot be edited".to_owned(),
-            Self::NotAThing { name } => format!("“{name}” is no thing"),
-            Self::NotAnArea { name } => format!("“{name}” is no room"),
-            Self::NotYet { name } => format!("“{name}” was not on the map then"),
+            Self::NotAThing { name } => format!("{} is no thing", en(name)),
+            Self::NotAnArea { name } => format!("{} is no room", en(name)),
+            Self::NotYet { name } => format!("{} was not on the map then", en(name)),
             Self::NothingProposed { name } => {
-                format!("“{name}”: nothing is proposed, it stands where the map has it")
+                format!("{}: nothing is proposed, it stands where the map has it", en(name))
             }
             Self::RobotNowhere => "it is not known where the robot is".to_owned(),
             Self::TruthOnRobot { thing } => {
-                format!("in truth {} is where the robot stands", called(thing))
+                format!("in truth {} is where the robot stands", en(thing))
             }
             Self::NoRules { dir } => format!("there is no directory of rules “{dir}”"),
             Self::RulesThere { files } => format!("there are rule files already: {files}"),
             Self::GridTooLarge { map, limit } => {
-                format!("the storey “{map}” does not fit into a picture of {limit} cells")
+                format!("the storey “{}” does not fit into a picture of {limit} cells", en(map))
             }
             Self::File { path, reason, .. } => format!("file “{path}”: {}", en(reason)),
         }
-    }
-}
-
-impl InEnglish for RequestError {
-    fn english(&self) -> String {
-        self.told(&str::to_owned)
     }
 
     fn english_help(&self) -> Option<String> {

@@ -197,7 +197,7 @@ pub enum RequestError {
     /// A name that several things bear, or that could be read in several ways.
     #[error("имя «{name}» можно понять по-разному: {candidates}")]
     #[diagnostic(code(engine::ambiguous_name), help("назовите одно из них полностью"))]
-    AmbiguousName { name: String, candidates: String },
+    AmbiguousName { name: String, candidates: Bilingual },
 
     /// A relation that the rules do not declare.
     #[error("нет отношения «{name}»")]
@@ -211,12 +211,12 @@ pub enum RequestError {
     /// A thing is not where an order says that it is.
     #[error("«{thing}» сейчас не там, где сказано: «{place}»")]
     #[diagnostic(code(engine::not_there), help("спросите «Где …?» и скажите, что имелось в виду"))]
-    NotThere { thing: String, place: String },
+    NotThere { thing: Bilingual, place: Bilingual },
 
     /// Something that is no place to go to, or from.
     #[error("«{name}» – не место, до которого можно доехать")]
     #[diagnostic(code(engine::not_a_place), help("назовите точку, помещение, дверь или вещь"))]
-    NotAPlace { name: String },
+    NotAPlace { name: Bilingual },
 
     /// Two places on different maps.
     #[error("«{from}» и «{to}» находятся на разных картах")]
@@ -229,7 +229,7 @@ pub enum RequestError {
         code(engine::nowhere),
         help("координаты – в системе карты, {}: карта занимает {extent}", Lengths::said().word(Language::Russian))
     )]
-    Nowhere { at: String, map: String, extent: String },
+    Nowhere { at: String, map: Bilingual, extent: String },
 
     /// Coordinates that are none.
     #[error("«{text}» – не поза: {reason}")]
@@ -252,7 +252,7 @@ pub enum RequestError {
     /// Which of several maps is meant.
     #[error("в домейне несколько карт: {candidates}")]
     #[diagnostic(code(engine::which_map), help("назовите одну из них"))]
-    WhichMap { candidates: String },
+    WhichMap { candidates: Bilingual },
 
     /// A side of a thing on which the robot has no place to stand.
     #[error("«{name}»: с той стороны роботу негде встать")]
@@ -260,7 +260,7 @@ pub enum RequestError {
         code(engine::no_floor_there),
         help("назовите другую сторону: перед, за, слева или справа")
     )]
-    NoFloorThere { name: String },
+    NoFloorThere { name: Bilingual },
 
     /// A point that was told by its coordinates, where the robot does not fit.
     #[error("в точке {at} и возле неё робот не встанет")]
@@ -283,7 +283,7 @@ pub enum RequestError {
         code(engine::not_put_there),
         help("скажите, на что, во что или в какое помещение положить")
     )]
-    NotPutThere { name: String },
+    NotPutThere { name: Bilingual },
 
     /// The time of a way is asked for, and the map does not tell where it leads.
     #[error("карта не говорит, где это: {names}; сколько времени займёт путь, неизвестно")]
@@ -293,7 +293,7 @@ pub enum RequestError {
             "назовите места и двери, как их знает карта (ortho plan --facts), или уберите --metric time"
         )
     )]
-    Untimed { names: String },
+    Untimed { names: Bilingual },
 
     /// A map that tells of no place where the robot charges.
     #[error("на карте нет места для зарядки")]
@@ -321,12 +321,12 @@ pub enum RequestError {
         code(engine::not_portable),
         help("носить можно то, чей тип имеет признак portable")
     )]
-    NotPortable { name: String },
+    NotPortable { name: Bilingual },
 
     /// Something that has no inside.
     #[error("в «{name}» ничего не положить: внутри нет места")]
     #[diagnostic(code(engine::not_hollow), help("скажите, на что положить"))]
-    NotHollow { name: String },
+    NotHollow { name: Bilingual },
 
     /// Something whose inside is behind doors that are shut.
     #[error("«{name}»: дверцы закрыты, а дверцы мебели робот не открывает")]
@@ -334,7 +334,7 @@ pub enum RequestError {
         code(engine::shut),
         help("откройте сами и скажите карте: ortho edit state ДВЕРЦА open")
     )]
-    Shut { name: String },
+    Shut { name: Bilingual },
 
     /// A thing that is behind doors that are shut.
     #[error("«{thing}» лежит в «{container}», а там закрыто, и дверцы мебели робот не открывает")]
@@ -342,12 +342,12 @@ pub enum RequestError {
         code(engine::shut_in),
         help("откройте сами и скажите карте: ortho edit state ДВЕРЦА open")
     )]
-    ShutIn { thing: String, container: String },
+    ShutIn { thing: Bilingual, container: Bilingual },
 
     /// Nothing in a room can take a thing.
     #[error("«{area}»: «{thing}» там некуда положить")]
     #[diagnostic(code(engine::no_space), help("назовите, на что положить"))]
-    NoSpace { thing: String, area: String },
+    NoSpace { thing: Bilingual, area: Bilingual },
 
     /// Something that is to be opened and is locked, as furniture is without a key of the robot's.
     #[error("«{name}» заперто, а ключа от мебели у робота нет")]
@@ -355,7 +355,7 @@ pub enum RequestError {
         code(engine::locked),
         help("откройте сами и скажите карте: ortho edit state ДВЕРЦА open")
     )]
-    Locked { name: String },
+    Locked { name: Bilingual },
 
     /// A task that waits was meant, and it is not said which.
     #[error("непонятно, какое задание: в очереди {waiting}")]
@@ -371,12 +371,12 @@ pub enum RequestError {
         code(engine::no_bin),
         help("ведро для мусора – вещь, чей тип или его синоним так и называется")
     )]
-    NoBin { thing: String },
+    NoBin { thing: Bilingual },
 
     /// Something that is to be opened or shut and is no door between rooms.
     #[error("«{name}» – не дверь между помещениями, а других робот не открывает")]
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
-    NotADoor { name: String },
+    NotADoor { name: Bilingual },
 
     /// A door that joins no two rooms of the map.
     #[error("«{name}» ведёт наружу, а робот пользуется только дверями между помещениями")]
@@ -384,7 +384,7 @@ pub enum RequestError {
         code(engine::leads_outside),
         help("двери карты: ortho relations --name СОЕДИНЯЕТ")
     )]
-    LeadsOutside { name: String },
+    LeadsOutside { name: Bilingual },
 
     /// A thing that is to be clean: rooms, and what bears things, are tidied.
     #[error("робот прибирает вещи, а не моет и не чистит: «{name}» остаётся как есть")]
@@ -392,22 +392,22 @@ pub enum RequestError {
         code(engine::not_cleaned),
         help("прибирают помещения и то, на чём лежат вещи: «Приберись на столе»")
     )]
-    NotCleaned { name: String },
+    NotCleaned { name: Bilingual },
 
     /// A thing is to be cleared of what is kept on it.
-    #[error("на «{name}» лежит только то, что там и хранится: «{}»", things.join("», «"))]
+    #[error("на «{name}» лежит только то, что там и хранится: «{}»", russian_names(things).join("», «"))]
     #[diagnostic(code(engine::kept_there), help("скажите, куда это положить"))]
-    KeptThere { things: Vec<String>, name: String },
+    KeptThere { things: Vec<Bilingual>, name: Bilingual },
 
     /// A thing is to be put away that lies where it is kept.
     #[error("«{thing}» лежит там, где и хранится: «{home}»")]
     #[diagnostic(code(engine::at_home), help("скажите, куда это положить"))]
-    AtHome { thing: String, home: String },
+    AtHome { thing: Bilingual, home: Bilingual },
 
     /// Something that is to be switched and has no switch.
     #[error("«{name}» нельзя ни включить, ни выключить")]
     #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]
-    NotADevice { name: String },
+    NotADevice { name: Bilingual },
 
     /// Nobody knows where a thing belongs.
     #[error("неизвестно, где место для «{thing}»")]
@@ -415,12 +415,12 @@ pub enum RequestError {
         code(engine::homeless),
         help("скажите, куда положить, или дайте вещи свойство ХРАНИТСЯ_НА")
     )]
-    Homeless { thing: String },
+    Homeless { thing: Bilingual },
 
     /// The place where a thing is kept is not on the map.
     #[error("«{thing}» хранится на «{home}», а такой вещи на карте нет")]
     #[diagnostic(code(engine::no_home), help("исправьте свойство ХРАНИТСЯ_НА"))]
-    NoHome { thing: String, home: String },
+    NoHome { thing: Bilingual, home: String },
 
     /// A change of the map as it was.
     #[error("прошлое карты нельзя править")]
@@ -433,12 +433,12 @@ pub enum RequestError {
     /// Something that is asked after as a thing and is none.
     #[error("«{name}» – не вещь")]
     #[diagnostic(code(engine::not_a_thing), help("вещи карты: ortho relations --name СОДЕРЖИТ"))]
-    NotAThing { name: String },
+    NotAThing { name: Bilingual },
 
     /// Something that is asked after as a room and is none.
     #[error("«{name}» – не помещение")]
     #[diagnostic(code(engine::not_an_area), help("назовите помещение карты"))]
-    NotAnArea { name: String },
+    NotAnArea { name: Bilingual },
 
     /// A thing at a moment when the map did not have it.
     #[error("«{name}» тогда ещё не было на карте")]
@@ -446,12 +446,12 @@ pub enum RequestError {
         code(engine::not_yet),
         help("назовите более позднее время; история вещи: ortho find ИМЯ --story")
     )]
-    NotYet { name: String },
+    NotYet { name: Bilingual },
 
     /// A thing of which nothing else is believed than the map says.
     #[error("«{name}»: поправки нет, вещь стоит там, где на карте")]
     #[diagnostic(code(engine::nothing_proposed), help("список поправок: ortho proposals"))]
-    NothingProposed { name: String },
+    NothingProposed { name: Bilingual },
 
     /// The Map does not say where the robot is.
     #[error("неизвестно, где робот")]
@@ -467,7 +467,7 @@ pub enum RequestError {
         code(engine::truth_on_robot),
         help("подвиньте вещь в файле --truth, или поставьте робота в другое место: --from МЕСТО")
     )]
-    TruthOnRobot { thing: String },
+    TruthOnRobot { thing: Bilingual },
 
     /// A directory of rule files that was named and is not there.
     #[error("каталога правил «{dir}» нет")]
@@ -490,7 +490,7 @@ pub enum RequestError {
     /// A floor too large for a picture.
     #[error("этаж «{map}» не помещается в картинку из {limit} клеток")]
     #[diagnostic(code(engine::grid_too_large), help("возьмите клетку крупнее: --cell 10"))]
-    GridTooLarge { map: String, limit: usize },
+    GridTooLarge { map: Bilingual, limit: usize },
 
     /// A file that cannot be read or written.
     #[error("файл «{path}»: {reason}")]
@@ -536,17 +536,12 @@ impl Error {
         }
     }
 
-    /// The fault in a language, where the map's own names are said in it too.
+    /// The fault as a sentence of a language.
     #[must_use]
-    pub fn say(&self, world: &World, language: Language) -> String {
-        let called = |name: &str| match world.find(name).first() {
-            Some(entity) => named(world, *entity).english(),
-            None => name.to_owned(),
-        };
+    pub fn say(&self, language: Language) -> String {
         match (language, self) {
             (_, Self::Misheard(misheard)) => misheard.say(language),
             (Language::Russian, _) => capitalized(&self.to_string()),
-            (Language::English, Self::Request(request)) => sentence(&request.told(&called)),
             (Language::English, _) => sentence(&self.in_english().to_string()),
         }
     }
@@ -583,6 +578,18 @@ impl Error {
             Self::Vehicle(_) => false,
         }
     }
+}
+
+/// What the map calls so, in both languages; what it does not know goes by the same name in both.
+pub(super) fn in_both(world: &World, name: &str) -> Bilingual {
+    match world.find(name).first() {
+        Some(entity) => Bilingual::new(name.to_owned(), named(world, *entity).english()),
+        None => name.to_owned().into(),
+    }
+}
+
+fn russian_names(names: &[Bilingual]) -> Vec<&str> {
+    names.iter().map(|name| name.say(Language::Russian)).collect()
 }
 
 fn sentence(told: &str) -> String {

@@ -7,6 +7,7 @@ use crate::exchange::{
 use crate::map::Format;
 use crate::units::{MapId, Timestamp};
 
+use super::error::in_both;
 use super::{Engine, Error, RequestError};
 
 impl Engine {
@@ -62,7 +63,7 @@ impl Engine {
 
     fn too_large(&self, map: MapId) -> Error {
         let world = self.world().expect("its floor was found");
-        let map = world.maps[&map].name.clone();
+        let map = in_both(world, &world.maps[&map].name);
         RequestError::GridTooLarge { map, limit: MOST_CELLS }.into()
     }
 

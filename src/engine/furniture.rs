@@ -8,6 +8,7 @@ use crate::robot::{Belief, GoalFact};
 use crate::semantics::predicate;
 use crate::units::ReplicaId;
 
+use super::error::in_both;
 use super::{Error, RequestError, State};
 
 impl State {
@@ -39,12 +40,13 @@ impl State {
         if (status == DoorStatus::Open) == open {
             return Ok(Some(Vec::new()));
         }
-        let name = self.world()?.name(thing).to_owned();
+        let world = self.world()?;
+        let name = world.name(thing).to_owned();
         if !self.opens_furniture() {
-            return Err(RequestError::NotADoor { name }.into());
+            return Err(RequestError::NotADoor { name: in_both(world, &name) }.into());
         }
         if status == DoorStatus::Locked {
-            return Err(RequestError::Locked { name }.into());
+            return Err(RequestError::Locked { name: in_both(world, &name) }.into());
         }
         let predicate = if open { predicate::STANDS_OPEN } else { predicate::STANDS_SHUT };
         Ok(Some(vec![GoalFact { predicate: predicate.to_owned(), args: vec![name] }]))
@@ -88,7 +90,7 @@ impl State {
         match (belief.bins.is_empty(), locked) {
             (false, _) => Ok(goal),
             (true, Some(error)) => Err(error),
-            (true, None) => Err(RequestError::NoBin { thing: name }.into()),
+            (true, None) => Err(RequestError::NoBin { thing: in_both(world, &name) }.into()),
         }
     }
 

@@ -9,6 +9,7 @@ use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId, Gather as _};
 
 use super::directive_words::floor_place;
+use super::error::in_both;
 use super::task::{OPERATOR, thing_of};
 use super::{Error, RequestError, State};
 
@@ -87,6 +88,7 @@ impl State {
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
         let world = self.world()?;
         let name = |e: Entity| world.name(e).to_owned();
+        let both = |e: Entity| in_both(world, world.name(e));
         let one = |fact: GoalFact| vec![vec![fact]];
         Ok(match command {
             Command::GoTo { to, via, facing } => {
@@ -169,7 +171,8 @@ impl State {
                     let Some(home) = self.home_of(&name(what.id), relations)? else {
                         return match (command, self.homes()?.remove(&name(what.id))) {
                             (Command::PutAway(_), Some(home)) => {
-                                Err(RequestError::AtHome { thing: name(what.id), home }.into())
+                                let (thing, home) = (both(what.id), in_both(world, &home));
+                                Err(RequestError::AtHome { thing, home }.into())
                             }
                             _ => Ok(Vec::new()),
                         };
@@ -200,7 +203,7 @@ impl State {
             Command::CallLift => one(self.cabin_here(relations)?),
             Command::CallOperator => one(fact(predicate::CALLED, vec![OPERATOR.to_owned()])),
             Command::Clean(Some(thing @ Entity::Replica(_))) => {
-                return Err(RequestError::NotCleaned { name: name(*thing) }.into());
+                return Err(RequestError::NotCleaned { name: both(*thing) }.into());
             }
             Command::Clear(thing) => self.cleared(*thing, relations, belief)?,
             Command::Tidy(within) | Command::Clean(within) => {
@@ -213,9 +216,10 @@ impl State {
 
     /// A thing in the place where it is kept, though it lies there still.
     fn put_back(&self, thing: Entity, belief: &mut Belief) -> Result<Vec<Vec<GoalFact>>, Error> {
-        let name = self.world()?.name(thing).to_owned();
+        let world = self.world()?;
+        let name = world.name(thing).to_owned();
         let home = self.homes()?.remove(&name);
-        let home = home.ok_or_else(|| RequestError::Homeless { thing: name.clone() })?;
+        let home = home.ok_or_else(|| RequestError::Homeless { thing: in_both(world, &name) })?;
         belief.homes.push((name.clone(), home));
         Ok(vec![vec![fact(predicate::IN_ITS_PLACE, vec![name])]])
     }
@@ -228,9 +232,13 @@ impl State {
         belief: &mut Belief,
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
         let goals = self.tidied(Some(from), relations, belief)?;
-        let (kept, name) = (self.lying_on(from, relations)?, self.world()?.name(from).to_owned());
+        let (kept, world) = (self.lying_on(from, relations)?, self.world()?);
         match goals.is_empty() && !kept.is_empty() {
-            true => Err(RequestError::KeptThere { things: kept, name }.into()),
+            true => {
+                let things = kept.iter().map(|name| in_both(world, name)).collect();
+                let name = in_both(world, world.name(from));
+                Err(RequestError::KeptThere { things, name }.into())
+            }
             false => Ok(goals),
         }
     }
@@ -254,7 +262,7 @@ impl State {
         let world = self.world()?;
         let name = world.name(entity).to_owned();
         if !matches!(entity, Entity::Replica(id) if world.has_trait(id, "device")) {
-            return Err(RequestError::NotADevice { name }.into());
+            return Err(RequestError::NotADevice { name: in_both(world, &name) }.into());
         }
         Ok(fact(predicate, vec![name]))
     }
@@ -271,7 +279,7 @@ impl State {
             // A door with a room on one side only is none to the planner.
             Entity::Door(door) => {
                 if !relations.joins().iter().any(|join| join.door == Some(door)) {
-                    return Err(RequestError::LeadsOutside { name }.into());
+                    return Err(RequestError::LeadsOutside { name: in_both(world, &name) }.into());
                 }
                 predicate::ROBOT_AT_DOOR
             }
@@ -281,12 +289,14 @@ impl State {
                     .into_iter()
                     .any(|f| f.predicate == predicate::PLACE_IN && f.arguments[0].name == name);
                 if !known {
-                    return Err(RequestError::NotAPlace { name }.into());
+                    return Err(RequestError::NotAPlace { name: in_both(world, &name) }.into());
                 }
                 predicate::ROBOT_AT_PLACE
             }
             Entity::Replica(_) => return self.being_near(entity, relations),
-            Entity::Zone(_) => return Err(RequestError::NotAPlace { name }.into()),
+            Entity::Zone(_) => {
+                return Err(RequestError::NotAPlace { name: in_both(world, &name) }.into());
+            }
             // On a storey is in any room of it.
             Entity::Map(map) => {
                 return Ok(fact(predicate::ROBOT_ON_STOREY, vec![storey_name(world, map)]));
@@ -341,12 +351,15 @@ impl State {
                 let place = facts
                     .iter()
                     .find(|f| f.predicate == predicate::PLACE_BY && f.arguments[1].name == beside);
-                let place = place.ok_or(RequestError::NotAPlace { name: beside })?;
+                let place = place
+                    .ok_or_else(|| RequestError::NotAPlace { name: in_both(world, &beside) })?;
                 let place = place.arguments[0].name.clone();
                 return Ok(vec![fact(predicate::THING_AT_PLACE, vec![name, place])]);
             }
             Some(other) => {
-                return Err(RequestError::NotPutThere { name: world.name(other).to_owned() }.into());
+                return Err(
+                    RequestError::NotPutThere { name: in_both(world, world.name(other)) }.into()
+                );
             }
             None => relations.area_of(id),
         };
@@ -361,8 +374,8 @@ impl State {
         }
         let room = area.map(|area| world.name(Entity::Area(area)).to_owned());
         let no_space = || {
-            let area = room.clone().unwrap_or_default();
-            Error::from(RequestError::NoSpace { thing: name.clone(), area })
+            let area = in_both(world, room.as_deref().unwrap_or_default());
+            Error::from(RequestError::NoSpace { thing: in_both(world, &name), area })
         };
         let place = match (area, &room) {
             (Some(area), Some(room)) => {
@@ -380,7 +393,8 @@ impl State {
 
     /// At the place from which a thing is reached: the one that serves it or what it stands on.
     fn being_near(&self, entity: Entity, relations: &Relations) -> Result<GoalFact, Error> {
-        let name = self.world()?.name(entity);
+        let world = self.world()?;
+        let name = world.name(entity);
         let facts = facts_of_map(self.uncarried()?, relations);
         let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
             facts
@@ -392,7 +406,7 @@ impl State {
         let place = about(predicate::THING_AT_PLACE, 0, name, 1)
             .or_else(|| about(predicate::PERSON_AT_PLACE, 0, name, 1))
             .or_else(|| about(predicate::PLACE_BY, 1, support.as_deref().unwrap_or(name), 0))
-            .ok_or_else(|| RequestError::NotAPlace { name: name.to_owned() })?;
+            .ok_or_else(|| RequestError::NotAPlace { name: in_both(world, name) })?;
         Ok(fact(predicate::ROBOT_AT_PLACE, vec![place]))
     }
 
@@ -407,7 +421,7 @@ impl State {
             sides.extend([join.from, join.to]);
         }
         if sides.is_empty() {
-            return Err(RequestError::LeadsOutside { name }.into());
+            return Err(RequestError::LeadsOutside { name: in_both(world, &name) }.into());
         }
         let at_door = vec![fact(predicate::ROBOT_AT_DOOR, vec![name])];
         let in_area = |area: &AreaId| {
@@ -429,8 +443,9 @@ impl State {
         let far = |area: AreaId| (self.way_to(Entity::Area(area)), area);
         let next =
             beside.into_iter().map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let name = world.name(Entity::Area(here)).to_owned();
-        let (_, next) = next.ok_or(RequestError::NotAPlace { name })?;
+        let name = world.name(Entity::Area(here));
+        let (_, next) =
+            next.ok_or_else(|| RequestError::NotAPlace { name: in_both(world, name) })?;
         Ok(fact(predicate::ROBOT_IN, vec![world.name(Entity::Area(next)).to_owned()]))
     }
 
@@ -464,7 +479,7 @@ impl State {
             }
             _ => None,
         };
-        let name = || RequestError::NotADoor { name: world.name(entity).to_owned() };
+        let name = || RequestError::NotADoor { name: in_both(world, world.name(entity)) };
         Ok(door.ok_or_else(name)?)
     }
 
@@ -508,7 +523,7 @@ impl State {
             })
             .collect();
         if facts.is_empty() {
-            let name = world.name(Entity::Door(door)).to_owned();
+            let name = in_both(world, world.name(Entity::Door(door)));
             return Err(RequestError::LeadsOutside { name }.into());
         }
         Ok(facts)

@@ -4,6 +4,7 @@ use crate::geometry::{Bounds, FloorPlan, Method, Scene, Target};
 use crate::map::{Entity, World};
 use crate::units::{AreaId, Lengths, MapId, Point};
 
+use super::error::in_both;
 use super::known::Known;
 use super::{Error, RequestError};
 
@@ -47,7 +48,7 @@ impl Known {
     pub(super) fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
         let world = self.world();
         let nowhere =
-            || Error::from(RequestError::NotAPlace { name: world.name(entity).to_owned() });
+            || Error::from(RequestError::NotAPlace { name: in_both(world, world.name(entity)) });
         let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
         match entity {
             Entity::Map(_) | Entity::Zone(_) => Err(nowhere()),
@@ -99,7 +100,7 @@ pub(super) fn spot_in_words(x: f64, y: f64, between: &str) -> String {
 
 /// A point that no Area of a map holds.
 pub(super) fn nowhere_on(world: &World, floor: &FloorPlan, at: Point) -> RequestError {
-    let map = world.maps[&floor.map()].name.clone();
+    let map = in_both(world, &world.maps[&floor.map()].name);
     let at = spot_in_words(at.x, at.y, ", ");
     RequestError::Nowhere { at, map, extent: extent(floor.scene()) }
 }

@@ -6,6 +6,7 @@ use crate::store::{
 };
 use crate::units::{AreaId, Frame, InOrder as _, MapId, ReplicaId};
 
+use super::error::in_both;
 use super::history::in_memory;
 use super::located::nowhere_on;
 use super::{Engine, Error, RequestError, State};
@@ -48,9 +49,8 @@ impl State {
     pub fn thing(&self, name: &str) -> Result<&Replica, Error> {
         let entity = self.find(name)?;
         let Entity::Replica(id) = entity else {
-            return Err(
-                RequestError::NotAThing { name: self.world()?.name(entity).to_owned() }.into()
-            );
+            let world = self.world()?;
+            return Err(RequestError::NotAThing { name: in_both(world, world.name(entity)) }.into());
         };
         Ok(&self.world()?.replicas[&id])
     }
@@ -60,11 +60,12 @@ impl State {
     /// # Errors
     /// As [`State::thing`]; [`RequestError::NotYet`] when it was not on the map at that moment.
     pub fn where_is(&self, name: &str, at: Timestamp) -> Result<Believed, Error> {
-        let replica = self.thing(name)?.clone();
+        let (world, replica) = (self.world()?, self.thing(name)?.clone());
         let reader = self.reader()?;
         let reader = reader.at(reader.revision_at(at)?)?;
         let then = reader.replica(replica.id)?;
-        let then = then.ok_or_else(|| RequestError::NotYet { name: replica.name.clone() })?;
+        let then =
+            then.ok_or_else(|| RequestError::NotYet { name: in_both(world, &replica.name) })?;
         let belief = reader.belief(&then, at)?;
         let surveyed = Some(Seen { area: then.area, frame: then.frame });
         // What is carried now says nothing of an earlier moment.
@@ -147,7 +148,9 @@ impl State {
         let map = match map.map(|name| self.find(name)).transpose()? {
             Some(Entity::Map(id)) => Some(id),
             Some(other) => {
-                return Err(RequestError::NotAnArea { name: world.name(other).to_owned() }.into());
+                return Err(
+                    RequestError::NotAnArea { name: in_both(world, world.name(other)) }.into()
+                );
             }
             None => home,
         };
@@ -222,7 +225,8 @@ impl Engine {
         match self.find(name)? {
             Entity::Area(id) => Ok(id),
             other => {
-                Err(RequestError::NotAnArea { name: self.world()?.name(other).to_owned() }.into())
+                let world = self.world()?;
+                Err(RequestError::NotAnArea { name: in_both(world, world.name(other)) }.into())
             }
         }
     }
@@ -258,7 +262,8 @@ impl Engine {
         let id = self.thing(name)?.id;
         let believed = self.where_is(name, change.at)?.belief;
         if believed.is_surveyed {
-            return Err(RequestError::NothingProposed { name: name.to_owned() }.into());
+            let name = in_both(self.world()?, name);
+            return Err(RequestError::NothingProposed { name }.into());
         }
         let edited = self.edit_world(change, super::Mode::Commit, |world| {
             if let Some(replica) = world.replicas.get_mut(&id) {

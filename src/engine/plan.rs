@@ -12,6 +12,7 @@ use crate::strips::{
 };
 use crate::units::{Bilingual, ReplicaId, name_key};
 
+use super::error::in_both;
 use super::{Error, RequestError, State, surprise_in_words};
 
 /// The types of things that the Map alone makes known.
@@ -137,8 +138,10 @@ impl State {
         let Scenario { domain, problem, warnings, .. } = scenario;
         let solved = self.on_terrain(&problem, |terrain| {
             Ok(solve_quickest(&domain, &problem, terrain, limits)?.map_err(|names| {
-                let names: Vec<String> = names.into_iter().collect();
-                RequestError::Untimed { names: names.join(", ") }
+                let both =
+                    |name: String| self.world().map_or(name.clone().into(), |w| in_both(w, &name));
+                let names: Vec<Bilingual> = names.into_iter().map(both).collect();
+                RequestError::Untimed { names: Bilingual::list(&names) }
             })?)
         })?;
         Ok(PlanAnswer::of(solved, warnings))

@@ -11,8 +11,9 @@ use crate::language::report::read::{
 use crate::language::report::{Beside, OpeningKind};
 use crate::map::{Entity, World};
 use crate::semantics::{Claim, Faced, Relations, Way, claim_bounds, claim_holds, faced};
-use crate::units::{AreaId, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Bilingual, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
 
+use super::error::in_both;
 use super::lexicon::named;
 use super::{Error, RequestError, State};
 
@@ -62,11 +63,12 @@ impl State {
             }
             (Some(last), false) => {
                 regions.push(last);
-                let name = |region: &Region| {
-                    let map = &world.maps[&region.map].name;
-                    format!("{} ({map})", world.name(Entity::Area(region.area)))
+                let both = |region: &Region| {
+                    let area = in_both(world, world.name(Entity::Area(region.area)));
+                    let map = in_both(world, &world.maps[&region.map].name);
+                    Bilingual::both(|lang| format!("{} ({})", area.say(lang), map.say(lang)))
                 };
-                let candidates = regions.iter().map(name).collect::<Vec<_>>().join(", ");
+                let candidates = Bilingual::list(&regions.iter().map(both).collect::<Vec<_>>());
                 let name = text.chars().take(80).collect();
                 Err(RequestError::AmbiguousName { name, candidates }.into())
             }

@@ -13,6 +13,7 @@ use super::directive_words::{
     between_places, facing_place, facing_wall, facing_window, middle_place, side_of, side_place,
     spot_place, window_place,
 };
+use super::error::in_both;
 use super::{Error, Method, RequestError, State};
 
 /// A point of the floor that has no name on the Map.
@@ -77,7 +78,8 @@ impl State {
         let world = self.world()?;
         let room = world.name(Entity::Area(stance.area));
         let here = world.placement(stance.area).map(|(map, _)| map);
-        let unseen = |name: &str| Error::from(RequestError::NotAPlace { name: name.to_owned() });
+        let unseen =
+            |name: &str| Error::from(RequestError::NotAPlace { name: in_both(world, name) });
         let (name, map, seen) = match facing {
             Facing::Thing(thing) => {
                 let (map, middle) = self.middle_of(*thing)?;
@@ -118,7 +120,8 @@ impl State {
     }
 
     fn not_a_place(&self, entity: Entity) -> Error {
-        let name = self.world().map(|world| world.name(entity).to_owned()).unwrap_or_default();
+        let both = |world| in_both(world, world.name(entity));
+        let name = self.world().map_or("".into(), both);
         RequestError::NotAPlace { name }.into()
     }
 
@@ -127,7 +130,8 @@ impl State {
         let world = self.world()?;
         let window = &self.mind()?.lexicon.windows[window as usize];
         let room = world.name(Entity::Area(window.area));
-        let unreached = || Error::from(RequestError::NotAPlace { name: window.name.clone() });
+        let unreached =
+            || Error::from(RequestError::NotAPlace { name: in_both(world, &window.name) });
         let (map, _) = world.placement(window.area).ok_or_else(unreached)?;
         let at = nalgebra::center(&window.ends.0, &window.ends.1);
         let at = self.around()?.floor(map)?.standing_in(window.area, at).ok_or_else(unreached)?;
@@ -176,7 +180,7 @@ impl State {
         let Entity::Replica(id) = anchor else { return Err(self.not_a_place(anchor)) };
         let world = self.world()?;
         let name = world.name(anchor);
-        let none_there = || Error::from(RequestError::NoFloorThere { name: name.to_owned() });
+        let none_there = || Error::from(RequestError::NoFloorThere { name: in_both(world, name) });
         let (map, middle) = self.middle_of(anchor)?;
         let floor = self.around()?.floor(map)?;
         let (storey, pose) = self.robot()?;

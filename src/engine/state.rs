@@ -19,6 +19,7 @@ use crate::units::{
 };
 
 use super::changes::Changes;
+use super::error::in_both;
 use super::known::Known;
 use super::{Error, RequestError, Rules, Value};
 
@@ -346,9 +347,9 @@ impl State {
                 (Some(only), None) => Ok(only.id),
                 (None, _) => Err(RequestError::NoMaps.into()),
                 _ => {
-                    let candidates: Vec<&str> =
-                        world.maps.values().map(|m| m.name.as_str()).collect();
-                    Err(RequestError::WhichMap { candidates: candidates.join(", ") }.into())
+                    let names = world.maps.values().map(|map| in_both(world, &map.name));
+                    let candidates = Bilingual::list(&names.collect::<Vec<_>>());
+                    Err(RequestError::WhichMap { candidates }.into())
                 }
             };
         };
@@ -384,12 +385,9 @@ impl State {
                 Err(RequestError::UnknownName { name: name.to_owned(), help: offer(&near) }.into())
             }
             ref several => {
-                let candidates: Vec<&str> = several.iter().map(|&e| world.name(e)).collect();
-                Err(RequestError::AmbiguousName {
-                    name: name.to_owned(),
-                    candidates: candidates.join(", "),
-                }
-                .into())
+                let names = several.iter().map(|&e| in_both(world, world.name(e)));
+                let candidates = Bilingual::list(&names.collect::<Vec<_>>());
+                Err(RequestError::AmbiguousName { name: name.to_owned(), candidates }.into())
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::map::{Entity, Mark, World};
 use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
+use super::error::in_both;
 use super::{Error, RequestError, State};
 use crate::units::Gather as _;
 
@@ -72,8 +73,9 @@ impl State {
         thing: &str,
         relations: &Relations,
     ) -> Result<Option<String>, Error> {
+        let world = self.world()?;
         let home = self.homes()?.remove(thing);
-        let home = home.ok_or_else(|| RequestError::Homeless { thing: thing.to_owned() })?;
+        let home = home.ok_or_else(|| RequestError::Homeless { thing: in_both(world, thing) })?;
         Ok((supports(self.uncarried()?, relations).get(thing) != Some(&home)).then_some(home))
     }
 
@@ -85,7 +87,7 @@ impl State {
             let Some((_, kept)) = Mark::KeptOn.of(&replica.properties) else { continue };
             let is_thing = |e: &Entity| matches!(e, Entity::Replica(_));
             let Some(home) = world.find(kept).into_iter().find(is_thing) else {
-                let (thing, home) = (replica.name.clone(), kept.to_owned());
+                let (thing, home) = (in_both(world, &replica.name), kept.to_owned());
                 return Err(RequestError::NoHome { thing, home }.into());
             };
             homes.insert(replica.name.clone(), world.name(home).to_owned());

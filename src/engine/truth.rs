@@ -10,6 +10,7 @@ use crate::robot::Simulator;
 use crate::semantics::load;
 use crate::units::{Bilingual, FileFault, Gather as _, ReplicaId, Source};
 
+use super::error::in_both;
 use super::lexicon::form_index;
 use super::{Error, RequestError, State};
 
@@ -67,7 +68,7 @@ impl State {
         let inside = standing.stands_in();
         let world = standing.into_truth();
         if let Some(what) = inside {
-            let thing = what.entity().map_or(String::new(), |it| world.name(it).to_owned());
+            let thing = what.entity().map_or("".into(), |it| in_both(&world, world.name(it)));
             return Err(RequestError::TruthOnRobot { thing }.into());
         }
         Ok(Truth { world, left_behind })

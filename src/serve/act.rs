@@ -139,7 +139,7 @@ impl From<Declined> for Fault {
                 "Робот занят; когда закончит, составьте план снова.",
                 "The robot is busy; plan again when it is done.",
             ),
-            Declined::Failed(error) => Self::of(&error, None),
+            Declined::Failed(error) => Self::of(&error),
         }
     }
 }
@@ -289,7 +289,7 @@ pub(super) async fn write(
         }
         work(engine).map(Written::Done)
     });
-    match written.await?.map_err(|error| named(house, &error))? {
+    match written.await?.map_err(|error| Fault::of(&error))? {
         Written::Done(view) => Ok(Json(view)),
         Written::Stale { revision, theirs } => Err(Fault::new(
             StatusCode::CONFLICT,
@@ -313,12 +313,6 @@ fn theirs(engine: &Engine, on: u64) -> Result<Value, Error> {
         all.push((revision, changed));
     }
     Ok(views::others(&all, Language::Russian))
-}
-
-/// A fault with the names of the map as it is.
-fn named(house: &House, error: &Error) -> Fault {
-    let state = house.desk.state();
-    Fault::of(error, state.world().ok())
 }
 
 fn by(session: &Session, reason: &str) -> Change {

@@ -47,10 +47,6 @@ fn open(book: &Mutex<Book>) -> MutexGuard<'_, Book> {
     book.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn said(error: &Error, state: &State, language: Language) -> String {
-    state.world().map_or_else(|_| error.to_string(), |world| error.say(world, language))
-}
-
 /// Why a task is not taken up.
 #[derive(Debug)]
 pub(super) enum Declined {
@@ -350,7 +346,7 @@ impl Tasks {
         self.note(&task.by.name);
         let state = self.desk.state();
         if let Err(error) = driven {
-            let text_end = said(&error, &state, Language::of(&task.text));
+            let text_end = error.say(Language::of(&task.text));
             let end = TaskEnd { state: "failed".to_owned(), text_end, ..TaskEnd::default() };
             let view = task.view("running");
             return self.ended(task, view, end, None);
@@ -404,7 +400,7 @@ impl Tasks {
             }
             Err(error) => {
                 end.state = "failed".to_owned();
-                end.text_end = said(&error, &state, Language::of(&task.text));
+                end.text_end = error.say(Language::of(&task.text));
                 None
             }
         };

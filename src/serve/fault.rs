@@ -7,7 +7,6 @@ use miette::Diagnostic;
 use serde_json::{Value, json};
 
 use crate::engine::{Error, json as views};
-use crate::map::World;
 use crate::units::{Bilingual, Language};
 
 use super::desk::Gone;
@@ -74,16 +73,14 @@ impl Fault {
         self
     }
 
-    /// An error of the engine, with names as the map has them.
+    /// An error of the engine.
     #[must_use]
-    pub(super) fn of(error: &Error, world: Option<&World>) -> Self {
+    pub(super) fn of(error: &Error) -> Self {
         let status = if error.is_input() {
             StatusCode::UNPROCESSABLE_ENTITY
         } else {
             StatusCode::INTERNAL_SERVER_ERROR
         };
-        let nothing = World::empty();
-        let world = world.unwrap_or(&nothing);
         let text = |found: Option<Box<dyn std::fmt::Display + '_>>| found.map(|t| t.to_string());
         let mut faults = views::faults(error);
         for (fault, english) in faults.iter_mut().zip(views::faults(&*error.in_english())) {
@@ -97,11 +94,11 @@ impl Fault {
         let body = json!({
             "outcome": "refused",
             "code": text(error.code()).or(one("code")),
-            "message": one("message").unwrap_or_else(|| error.say(world, Language::Russian)),
+            "message": one("message").unwrap_or_else(|| error.say(Language::Russian)),
             // What is said of a request names things as English does.
             "message_en": match error {
-                Error::Request(_) | Error::Misheard(_) => error.say(world, Language::English),
-                _ => one("message_en").unwrap_or_else(|| error.say(world, Language::English)),
+                Error::Request(_) | Error::Misheard(_) => error.say(Language::English),
+                _ => one("message_en").unwrap_or_else(|| error.say(Language::English)),
             },
             "help": text(error.help()).or(one("help")),
             "help_en": one("help_en"),
@@ -113,7 +110,7 @@ impl Fault {
 
 impl From<Error> for Fault {
     fn from(error: Error) -> Self {
-        Self::of(&error, None)
+        Self::of(&error)
     }
 }
 

@@ -291,11 +291,7 @@ impl Tasks {
                         Language::English => format!("Waiting: \"{order}\"."),
                     },
                 ),
-                Err(error) => {
-                    let state = self.desk.state();
-                    let said = state.world().map(|world| error.say(world, language));
-                    tell("misheard", &said.unwrap_or_else(|_| error.to_string()))
-                }
+                Err(error) => tell("misheard", &error.say(language)),
             },
         }
     }

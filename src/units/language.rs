@@ -11,14 +11,18 @@ pub enum Language {
 }
 
 impl Language {
-    /// The language that a text is written in. Names are no evidence: the small words decide, then the first letter.
+    /// The language that a text is written in. Names are no evidence, nor are identifiers, as `robot1_charger`: the small
+    /// words decide, then the first letter.
     #[must_use]
     pub fn of(text: &str) -> Self {
-        let words =
-            || text.split(|c: char| !c.is_alphabetic()).filter_map(|word| word.chars().next());
-        let small =
-            |latin: bool| words().filter(|c| c.is_lowercase() && c.is_ascii() == latin).count();
-        let first_is_latin = words().next().is_some_and(|c| c.is_ascii());
+        let words = || text.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let is_identifier = |word: &str| word.contains(|c: char| c == '_' || c.is_numeric());
+        let small = |latin: bool| {
+            let own = words().filter(|word| !is_identifier(word));
+            let first = own.filter_map(|word| word.chars().next());
+            first.filter(|c| c.is_lowercase() && c.is_ascii() == latin).count()
+        };
+        let first_is_latin = text.chars().find(|c| c.is_alphabetic()).is_some_and(|c| c.is_ascii());
         match small(true).cmp(&small(false)) {
             Ordering::Greater => Self::English,
             Ordering::Equal if first_is_latin => Self::English,

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use orthoframe::engine::json;
-use orthoframe::{Engine, Error, Language, State, World};
+use orthoframe::{Engine, Error, Language, State};
 use pyo3::prelude::*;
 use serde_json::Value;
 
@@ -161,15 +161,9 @@ impl Desk {
         to_python(py, &value)
     }
 
-    /// A failure in words, with things called as the map calls them.
+    /// A failure in words.
     pub(crate) fn tell(&self, failure: &Failure) -> Told {
-        let state = match failure {
-            Failure::Engine(_) => self.alone(|engine| Ok(engine.state()?)).ok(),
-            _ => None,
-        };
-        let nothing = World::empty();
-        let world = state.as_ref().and_then(|state| state.world().ok()).unwrap_or(&nothing);
-        Told::of(failure, world, self.language)
+        Told::of(failure, self.language)
     }
 }
 
@@ -210,7 +204,7 @@ fn words_of(panic: &(dyn Any + Send)) -> String {
 }
 
 impl Told {
-    pub(crate) fn of(failure: &Failure, world: &World, language: Language) -> Self {
+    pub(crate) fn of(failure: &Failure, language: Language) -> Self {
         let plain =
             |class, message: &str| Self { class, message: message.to_owned(), faults: Vec::new() };
         match failure {
@@ -218,8 +212,7 @@ impl Told {
                 let english = (language == Language::English).then(|| error.in_english());
                 let faults = json::faults(english.as_deref().unwrap_or(&**error));
                 let message = match (&**error, &faults[..]) {
-                    // What is said of a request names things as the map does.
-                    (Error::Request(_) | Error::Misheard(_), _) => error.say(world, language),
+                    (Error::Request(_) | Error::Misheard(_), _) => error.say(language),
                     (_, [one]) => one["message"].as_str().unwrap_or_default().to_owned(),
                     _ => english.map_or_else(|| error.to_string(), |english| english.to_string()),
                 };

@@ -9,7 +9,7 @@ use orthoframe::engine::{
     Scenario, Seen, State, Wanted, When, change_now, json,
 };
 use orthoframe::vehicle::{Address, Patience};
-use orthoframe::{Deg, Edits, Frame, Language, SourceText, World};
+use orthoframe::{Deg, Edits, Frame, Language, SourceText};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 use serde_json::{Value, json};
@@ -45,14 +45,13 @@ fn made(
     rules: Option<PathBuf>,
     make: impl FnOnce(Option<&Path>) -> Result<orthoframe::Engine, Failure> + Send,
 ) -> PyResult<Engine> {
-    let nothing = World::empty();
-    let speaks = language(speaks)
-        .map_err(|failure| Told::of(&failure, &nothing, Language::English).raised(py))?;
+    let speaks =
+        language(speaks).map_err(|failure| Told::of(&failure, Language::English).raised(py))?;
     let engine = py.detach(|| {
         // As the command line: ./rules where there is one.
         let rules = rules.clone().or_else(Rules::default_dir);
         crate::desk::guarded(|| make(rules.as_deref()))
-            .map_err(|failure| Told::of(&failure, &nothing, speaks))
+            .map_err(|failure| Told::of(&failure, speaks))
     });
     let engine = engine.map_err(|told| told.raised(py))?;
     Ok(Engine { desk: Arc::new(Desk::new(engine, speaks, user.to_owned())), rules })

@@ -35,8 +35,8 @@ use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
-    Aside, Conditional, Corrected, Memory, Unanswered, aside, asks_whether, begs, conditional,
-    hinged, sentences, unaddressed,
+    Aside, Conditional, Corrected, Doubt, Memory, Unanswered, aside, asks_whether, begs,
+    conditional, hinged, sentences, unaddressed,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -441,7 +441,9 @@ impl Hearing<'_, '_> {
         if orders && (commands() || self.engine.orders_tersely(line)?) {
             return self.command(line, awaited);
         }
-        let Some((at, verb)) = likely_verb(line).filter(|_| !asked && !asks) else {
+        // «Эти вещи белые?», where nothing was spoken of, has no word that is not known.
+        let read = matches!(unanswered.doubt, Doubt::NoReferent { .. });
+        let Some((at, verb)) = likely_verb(line).filter(|_| !asked && !asks && !read) else {
             return self.reply(Reply::unanswered(unanswered));
         };
         let (said, language) = (&line[at.clone()], Language::of(line));
@@ -587,7 +589,7 @@ impl Hearing<'_, '_> {
                 (Outcome::Misheard(Box::new(misheard)), text)
             }
             other => {
-                let text = other.say(self.engine.world()?, language);
+                let text = other.say(language);
                 (Outcome::Refused(Box::new(other)), text)
             }
         };

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::engine::error::in_both;
 use crate::engine::located::{nowhere_on, spot_in_words};
 use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
@@ -254,8 +255,8 @@ impl State {
             for (thing, place) in said {
                 if !self.is_there(thing, place)? {
                     let world = self.world()?;
-                    let name = |entity| world.name(entity).to_owned();
-                    let (thing, place) = (name(thing), name(place));
+                    let both = |entity| in_both(world, world.name(entity));
+                    let (thing, place) = (both(thing), both(place));
                     return Err(RequestError::NotThere { thing, place }.into());
                 }
             }

@@ -174,8 +174,14 @@ fn item<'s, 't, T: Clone + Eq + Hash>(input: Words<'s, 't, T>) -> Parsed<'s, 't,
 fn meaning<'s, 't, T: Clone + Eq + Hash>(
     input: Words<'s, 't, T>,
 ) -> Parsed<'s, 't, T, (Meaning, Range<usize>)> {
-    let found = longest(&input.iter_elements());
     let named = name_length(&input);
+    let mut found = longest(&input.iter_elements());
+    // «к Зарядке robot2_charger» is one of the chargers by its name, and only its preposition a word of the vocabulary.
+    if let Some((taken, Meaning::Haunt(_))) = found
+        && (1..taken).any(|n| name_length(&input.take_from(n)) > taken - n)
+    {
+        found = longest(&input.iter_elements().take(1));
+    }
     match found {
         Some((taken, meaning)) if taken >= named => {
             let words = input.at..input.at + taken;

@@ -69,6 +69,19 @@ impl Knowledge<'_> {
         })
     }
 
+    /// "Is there a medicine cabinet?": a thing that is called after another, where none of its kind is near such a one, may be
+    /// there under another name.
+    pub(super) fn unknown_compound(&self, query: &Query) -> Option<String> {
+        let mut compound = None;
+        query.clone().each_noun(&mut |noun| {
+            let modified = noun.restrictions.iter().flat_map(|r| &r.anchors).any(|a| a.modifies);
+            if modified && self.find(noun, true).is_ok_and(|found| found.is_empty()) {
+                compound.get_or_insert_with(|| without_article(&noun.text).to_owned());
+            }
+        });
+        compound
+    }
+
     /// What points in a query at a thing of a sort that the map lacks: "that shelf".
     pub(super) fn points_at_nothing(&self, query: &Query) -> Option<String> {
         let mut word = None;
@@ -405,4 +418,12 @@ pub(super) fn is_one(noun: &Noun) -> bool {
         || noun.head.things.is_some()
         || noun.count.is_some()
         || noun.best.is_some())
+}
+
+fn without_article(said: &str) -> &str {
+    let article = |(first, rest): (&str, &str)| {
+        matches!(&*first.to_lowercase(), "the" | "a" | "an").then_some(rest.len())
+    };
+    let rest = said.split_once(' ').and_then(article);
+    rest.map_or(said, |rest| &said[said.len() - rest..])
 }

@@ -651,6 +651,9 @@ impl Asker<'_> {
         if let Some(word) = none {
             return Err(Box::new((Doubt::NoReferent { word }, None)));
         }
+        if let Some(reference) = knowledge.unknown_compound(&query) {
+            return Err(Box::new((Doubt::Unknown { reference, near: Vec::new() }, Some(query))));
+        }
         if let Some(doubt) = knowledge.contested(&query) {
             return Err(Box::new((doubt, Some(query))));
         }

@@ -179,6 +179,8 @@ pub struct Noun {
     pub indefinite: bool,
     /// «все», "all"
     pub all: bool,
+    /// "the desk lamp": it stands before the noun that is one of its kind, or only called after it.
+    pub modifies: bool,
     /// «другие», "other": not those spoken of.
     pub other: bool,
     pub count: Option<u64>,

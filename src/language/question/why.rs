@@ -30,6 +30,11 @@ impl Knowledge<'_> {
             }
             (Some(query), ..) => {
                 let answer = self.answer(query)?;
+                // "Why can't you leave the kitchen?"
+                let leaves = matches!(query, Query::Find(_)) && answer.said == Said::Found;
+                if negated && leaves {
+                    return Ok(self.why_not_though_so(&answer.text, &[]));
+                }
                 if answer.facts.is_empty() {
                     let way = matches!(query, Query::CanReach { .. });
                     if negated && way && answer.said == Said::Yes {

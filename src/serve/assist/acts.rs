@@ -6,7 +6,7 @@ use std::time::SystemTime;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::engine::{Error, Mode, change_now, json as views, rehearsal, waiting};
+use crate::engine::{Mode, change_now, json as views, rehearsal, waiting};
 use crate::units::{Deg, Frame, Language};
 
 use super::super::fault::Fault;
@@ -137,15 +137,9 @@ impl Call<'_> {
                 None => engine.observe(&seen.thing, None, sure, &observer, when),
             }
         });
-        noted.await?.map_err(|error| self.named(&error))?;
+        noted.await?.map_err(|error| Fault::of(&error))?;
         house.events.tell("known", &views::known_changed(None));
         Ok(Told::Value(views::done("noted")))
-    }
-
-    /// A fault with the names of the map as it is.
-    fn named(&self, error: &Error) -> Fault {
-        let state = self.house().desk.state();
-        Fault::of(error, state.world().ok())
     }
 
     pub(super) async fn propose_edit(&self, proposed: Edit) -> Answer {

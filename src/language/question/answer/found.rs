@@ -65,6 +65,9 @@ impl Knowledge<'_> {
         if let Some(draft) = self.found_by_each(noun)? {
             return Ok(Draft { facts, ..draft });
         }
+        if let Some(draft) = self.rooms_between(noun, &found) {
+            return Ok(Draft { facts, ..draft });
+        }
         if let Some(text) = self.out_of_sight(noun, &found) {
             return Ok(Draft::new(Said::Unknown, text));
         }

@@ -5,7 +5,7 @@
 use super::Draft;
 use crate::map::Entity;
 use crate::question::knowledge::Knowledge;
-use crate::question::query::{Noun, Passing, Rel, Thing};
+use crate::question::query::{Noun, Passing, Rel, Restriction, Thing};
 use crate::question::senses::{Crossing, RoomPath};
 use crate::question::{Doubt, Said};
 use crate::report::Detail;
@@ -129,6 +129,27 @@ impl Knowledge<'_> {
             }
         };
         Ok(Draft::new(said, text).about(&[goal]))
+    }
+
+    /// "What is between the bedroom and the kitchen?": of rooms that neither door nor passage joins, the way that leads from
+    /// the one to the other.
+    pub(super) fn rooms_between(&self, noun: &Noun, found: &[Thing]) -> Option<Draft> {
+        let between = |r: &&Restriction| r.rel == Rel::Between && !r.negated;
+        let place = noun.restrictions.iter().find(between).filter(|_| found.is_empty())?;
+        let ends = place.anchors.iter().map(|anchor| self.one(anchor));
+        let ends: Vec<Thing> = ends.collect::<Result<_, _>>().ok()?;
+        let [start, goal] = ends[..] else { return None };
+        start.area().zip(goal.area())?;
+        let way = self.by_rooms(start, goal, &[], &[]).ok()?;
+        if way.crossings.len() < 2 {
+            return None;
+        }
+        let (place, told) = (self.place(Rel::Between, &ends), self.told(&way));
+        let text = match self.is_russian() {
+            true => format!("{place} нет ни двери, ни прохода; путь – {told}"),
+            false => format!("there is no door or passage {place}; the way is {told}"),
+        };
+        Some(Draft::new(Said::Nothing, text).about(&ends))
     }
 
     /// How long the way is, or takes, that goes round what is avoided; none where all ways lead through it.

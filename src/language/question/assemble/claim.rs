@@ -48,7 +48,18 @@ impl Frame<'_, '_> {
 
     fn exists_or_holds(&self) -> Option<Query> {
         // «Почему нельзя попасть в лабораторию?»
-        let moves = self.has(Mark::Can) && (self.has(Mark::Move) || self.has(Mark::Lead));
+        let goes = self.has(Mark::Move) || self.has(Mark::Lead) || self.says_out();
+        let moves = self.has(Mark::Can) && goes;
+        // "Why can't you get through the kitchen door?" asks whether it is open.
+        let open = self.lexicon.values.meaning("открытый");
+        if let (true, [], [Spot { rel: Rel::Through, nouns, .. }], Some(open)) =
+            (moves, &self.nouns[..], &self.spots[..], open)
+            && let [door] = &nouns[..]
+            && self.is_doors(door)
+        {
+            let claims = vec![Claim::Value(Filter::new(open, false))];
+            return Some(Query::Holds { subject: door.clone(), claims, denial: Denial::default() });
+        }
         let way = || if moves { self.passing().or_else(|| self.way()) } else { None };
         way().or_else(|| self.holds()).or_else(|| self.exists())
     }

@@ -287,6 +287,9 @@ impl<'s, 't> Frame<'s, 't> {
                     let filters = vec![Filter::new(*value, false)];
                     frame.except.push(Noun { head, plural: true, filters, ..Noun::default() });
                 }
+                Item::Value(value) if let Some(words) = frame.called_after(*value, items, at) => {
+                    return Err(Doubt::not_understood(&words));
+                }
                 Item::Value(value) => {
                     frame.values.push((*value, at, std::mem::take(&mut not)));
                 }
@@ -362,6 +365,18 @@ impl<'s, 't> Frame<'s, 't> {
             (None, None) => self.except.extend(except),
         }
         self.except.extend(rest);
+    }
+
+    /// "Is there a wine glass?": a noun and a material right behind it are the name of one thing, where they say nothing of the
+    /// noun, as "Is the bottle glass?" does.
+    fn called_after(&self, value: ValueId, items: &[Item], at: usize) -> Option<String> {
+        let Item::Noun(phrase) = items.get(at.checked_sub(1)?)? else { return None };
+        let is_material = self.lexicon.values.entry(value).property == Property::Material;
+        let says = matches!(items.first(), Some(Item::Mark(Mark::Be | Mark::Not)));
+        let named = phrase.pronoun.is_none() && phrase.person.is_none();
+        let english = self.sentence.language == crate::words::Language::English;
+        let words = phrase.words.start..phrase.words.end + 1;
+        (english && is_material && named && !says).then(|| self.sentence.said(&words).to_owned())
     }
 
     /// «Стульев на кухне больше трёх?»: gives a number that stands last to what is counted.

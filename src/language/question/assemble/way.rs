@@ -116,6 +116,18 @@ impl Frame<'_, '_> {
         {
             return Some(self.doors_out_of(left.noun.clone()));
         }
+        // "Can you leave the kitchen?", "Can you get out of the kitchen?"
+        let left = match (&self.nouns[..], &self.spots[..]) {
+            ([left], []) => Some(&left.noun),
+            ([], [Spot { rel: Rel::From, nouns, .. }]) => nouns.first(),
+            _ => None,
+        };
+        if let Some(left) = left.filter(|left| self.is_area(left))
+            && self.has(Mark::Can)
+            && self.says_out()
+        {
+            return Some(self.doors_out_of(left.clone()));
+        }
         let can = self.has(Mark::Can) && goes;
         if !(far || how || can) {
             return None;
@@ -265,7 +277,7 @@ impl Frame<'_, '_> {
     }
 
     /// "How do I get out of here?"
-    fn says_out(&self) -> bool {
+    pub(super) fn says_out(&self) -> bool {
         const OUT: [&str; 7] =
             ["out", "leave", "exit", "выйти", "выбраться", "выехать", "покинуть"];
         self.sentence.keys.iter().any(|key| OUT.contains(&key.as_str()))

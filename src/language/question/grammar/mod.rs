@@ -602,7 +602,7 @@ impl<'t> Sentence<'t> {
                     && found.readings.iter().any(|r| r.is_singular()) =>
             {
                 let words = input.0[0].from as usize..input.0[0].to as usize;
-                let owner = Noun { indefinite: true, ..noun_of(found, words) };
+                let owner = Noun { indefinite: true, modifies: true, ..noun_of(found, words) };
                 Ok((after, Some(next), Some((Rel::Near, owner))))
             }
             _ => Ok((rest, Some(found), None)),

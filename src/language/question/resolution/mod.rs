@@ -455,8 +455,16 @@ impl Resolver<'_, '_> {
         let goal = goal.filter(|goal| !self.tells_of_fixed(sort, own[*goal], objects));
         let whither = match goal {
             Some(goal) => {
-                let room = told.carried_to.or(told.gone_to);
-                self.whither(own.remove(goal), &mut own, sort, room, edits)?
+                let (spot, room) = (own.remove(goal), told.carried_to.or(told.gone_to));
+                match self.whither(spot, &mut own, sort, room, edits) {
+                    // «На зарядку», where there are several: the robot goes to the nearest.
+                    Err((Doubt::Ambiguous { .. }, _))
+                        if objects.is_empty() && self.is_haunt(spot) =>
+                    {
+                        None
+                    }
+                    found => found?,
+                }
             }
             None => None,
         };

@@ -30,6 +30,13 @@ pub(super) struct Spot<'i> {
 }
 
 impl Resolver<'_, '_> {
+    /// Whether a place is said as the robot's own: "to the charger".
+    pub(super) fn is_haunt(&self, spot: &Spot<'_>) -> bool {
+        let words = &spot.phrase.words;
+        let said = self.bytes(&(words.start.saturating_sub(1)..words.end));
+        self.sentence.text.get(said).is_some_and(command::is_haunt)
+    }
+
     /// Places whose thing was not found out keep their words; those that mean one thing become its name.
     pub(super) fn left_standing(&self, spots: &[&&Spot<'_>], edits: &mut Vec<Edit>) {
         for spot in spots {
