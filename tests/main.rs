@@ -86,6 +86,7 @@ mod sqlite;
 mod states;
 mod store;
 mod store_faults;
+mod shut_holders;
 mod store_world;
 mod storeys;
 mod story;
