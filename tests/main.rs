@@ -81,6 +81,7 @@ mod routes;
 mod scenes;
 mod scope;
 mod several_places;
+mod rounds;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

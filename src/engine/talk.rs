@@ -535,6 +535,17 @@ impl Senses for RobotSenses<'_> {
     fn beyond_arm(&self, thing: ReplicaId) -> Option<f64> {
         let around = self.engine.around().ok()?;
         let (map, pose) = self.engine.robot_pose()?;
+    fn round(&self, things: &[Thing]) -> Vec<Thing> {
+        let entity = |thing: &Thing| match thing {
+            Thing::Entity(entity) => Some(*entity),
+            _ => None,
+        };
+        let all: Option<Vec<Entity>> = things.iter().map(entity).collect();
+        let order = all.and_then(|all| self.engine.round(&all));
+        order
+            .map_or_else(|| things.to_vec(), |order| order.into_iter().map(|n| things[n]).collect())
+    }
+
         let goal = around.locate_entity(Entity::Replica(thing)).ok()?;
         let floor = around.floor(goal.map).ok().filter(|_| goal.map == map)?;
         let world = around.uncarried();
