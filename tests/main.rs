@@ -54,6 +54,7 @@ mod meanings;
 mod mission_plans;
 mod odd_floors;
 mod odd_worlds;
+mod names_with_verbs;
 mod openings;
 mod orders;
 mod partition;

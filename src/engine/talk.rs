@@ -2,7 +2,7 @@
 
 use crate::geometry::{Barrier, Method, NoRoute, Ride};
 use crate::language::Language;
-use crate::language::command::{Misheard, is_command, is_order};
+use crate::language::command::{Misheard, is_command, is_order, without_marks};
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Corrected, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said,
@@ -174,11 +174,14 @@ impl State {
                 _ => None,
             }
         };
-        self.asker(&senses)?.resolve(sentence, memory, &strict).map_err(|Misread(unanswered)| {
-            let several = unanswered.doubt.kind() == "ambiguous";
-            let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
-            misheard(unanswered).into()
-        })
+        self.asker(&senses)?.resolve(sentence, memory, &strict).map_err(
+            |Misread(mut unanswered)| {
+                unanswered.text = without_marks(&unanswered.text).into_owned();
+                let several = unanswered.doubt.kind() == "ambiguous";
+                let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
+                misheard(unanswered).into()
+            },
+        )
     }
 
     /// A line that corrects itself, as it is meant: see [`Asker::corrected`].

@@ -7,7 +7,7 @@ use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
 use crate::language::command::{
     Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
-    without_clock,
+    with_names_marked, without_clock, without_marks,
 };
 use crate::language::question::{
     Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged,
@@ -135,7 +135,7 @@ impl State {
     ) -> Result<Vec<Command<Entity>>, Error> {
         without_clock(sentence)?;
         let (sentence, spots) = self.rooms_for_points(sentence)?;
-        let resolved = self.resolve(&sentence, memory)?;
+        let resolved = self.resolve(&with_names_marked(&sentence, self.forms()?), memory)?;
         let entity = |thing| match thing {
             Thing::Entity(entity) => Some(entity),
             _ => None,
@@ -159,7 +159,8 @@ impl State {
             .holding(&held);
         let windows: Vec<(Entity, Option<u32>)> =
             resolved.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
-        let resolved = resolved.text;
+        let resolved =
+            with_names_marked(&without_marks(&resolved.text), self.forms()?).into_owned();
         let mut commands = match listener.hear(&resolved) {
             Ok(commands) => commands,
             Err(misheard) => {
