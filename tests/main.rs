@@ -6,6 +6,7 @@ mod architecture;
 mod asked_back;
 mod assembly;
 mod bounded;
+mod beside_the_order;
 mod broken_scenarios;
 mod chatter;
 mod cli;

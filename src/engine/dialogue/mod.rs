@@ -381,8 +381,13 @@ impl Hearing<'_, '_> {
         match order {
             Some(order) => self.hear(order),
             // What was waited for is so.
-            None if holds && conditional.waits => Ok(()),
-            None => self.put(Outcome::Waiting, conditional.undone(), language),
+            None if holds && conditional.waits => {}
+            None => self.put(Outcome::Waiting, conditional.undone(), language)?,
+        }
+        match &conditional.also {
+            Some(also) if self.has_failed() => self.not_begun(also),
+            Some(also) => self.hear(also),
+            None => Ok(()),
         }
     }
 

@@ -58,7 +58,8 @@ impl Hearing<'_, '_> {
             let (text, spoken) = (answer.text.clone(), answer.language);
             self.put(Outcome::Condition { holds, answer: Box::new(answer) }, &text, spoken)?;
             let then = if holds { &conditional.then } else { &conditional.otherwise };
-            let nothing = then.is_none() && conditional.first.is_none();
+            let nothing =
+                [then, &conditional.first, &conditional.also].iter().all(|order| order.is_none());
             idle = nothing.then(|| conditional.undone());
         }
         if idle.is_none() {

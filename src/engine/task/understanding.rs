@@ -10,7 +10,7 @@ use crate::language::command::{
     with_names_marked, without_clock, without_marks,
 };
 use crate::language::question::{
-    Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged,
+    Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged, unaddressed,
 };
 use crate::map::Entity;
 use crate::units::Point;
@@ -43,7 +43,7 @@ impl State {
                 return Err(Misheard::NoneSuch(Box::new(unclear)).into());
             }
         };
-        let sentence = &*corrected;
+        let sentence = &*unaddressed(&corrected);
         if let Some(conditional) = conditional(sentence) {
             return self.understood_if(&conditional, memory);
         }
@@ -98,8 +98,13 @@ impl State {
         let order = if holds.0 { &conditional.then } else { &conditional.otherwise };
         match order {
             Some(order) => commands.extend(self.understand_in(order, memory)?),
-            None if commands.is_empty() => commands.push(Command::Wait),
+            None if commands.is_empty() && conditional.also.is_none() => {
+                commands.push(Command::Wait)
+            }
             None => {}
+        }
+        if let Some(also) = &conditional.also {
+            commands.extend(self.understand_in(also, memory)?);
         }
         Ok(commands)
     }
