@@ -60,6 +60,7 @@ mod openings;
 mod orders;
 mod partition;
 mod passframes;
+mod parts_of_orders;
 mod places_of_orders;
 mod planning;
 mod planning_ahead;

@@ -535,9 +535,6 @@ impl Senses for RobotSenses<'_> {
         self.way_around(&without, from, to, language, Detail::Region)
     }
 
-    fn beyond_arm(&self, thing: ReplicaId) -> Option<f64> {
-        let around = self.engine.around().ok()?;
-        let (map, pose) = self.engine.robot_pose()?;
     fn round(&self, things: &[Thing]) -> Vec<Thing> {
         let entity = |thing: &Thing| match thing {
             Thing::Entity(entity) => Some(*entity),
@@ -549,6 +546,9 @@ impl Senses for RobotSenses<'_> {
             .map_or_else(|| things.to_vec(), |order| order.into_iter().map(|n| things[n]).collect())
     }
 
+    fn beyond_arm(&self, thing: ReplicaId) -> Option<f64> {
+        let around = self.engine.around().ok()?;
+        let (map, pose) = self.engine.robot_pose()?;
         let goal = around.locate_entity(Entity::Replica(thing)).ok()?;
         let floor = around.floor(goal.map).ok().filter(|_| goal.map == map)?;
         let world = around.uncarried();
