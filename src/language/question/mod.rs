@@ -75,7 +75,7 @@ mod whole;
 mod why;
 
 pub use address::unaddressed;
-pub use asides::{Aside, aside, asks_whether, begs};
+pub use asides::{Aside, aside, asks_whether, begs, behind_no};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use departed::{Departed, Stamp};
 pub use doubt::{Doubt, Unanswered};
