@@ -1,10 +1,12 @@
 //! Integration tests: one binary, one file a capability.
 
 mod accounted;
+mod after_the_order;
 mod agreement;
 mod architecture;
 mod asked_back;
 mod assembly;
+mod beside_the_order;
 mod between_rooms;
 mod bounded;
 mod broken_scenarios;
@@ -54,6 +56,7 @@ mod map_editing;
 mod maps;
 mod meanings;
 mod mission_plans;
+mod names_with_verbs;
 mod odd_floors;
 mod odd_worlds;
 mod one_tongue;
@@ -61,6 +64,7 @@ mod openings;
 mod orders;
 mod own_places;
 mod partition;
+mod parts_of_orders;
 mod passframes;
 mod places_of_orders;
 mod planning;
@@ -81,10 +85,12 @@ mod relations;
 mod remedies;
 mod rmf_floors;
 mod robot_facts;
+mod rounds;
 mod routes;
 mod scenes;
 mod scope;
 mod several_places;
+mod shut_holders;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

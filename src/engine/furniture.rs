@@ -3,7 +3,7 @@
 //! Invariant: what the robot cannot open is told before it moves.
 
 use crate::language::question::Extension;
-use crate::map::{DoorStatus, Entity, Replica, stands};
+use crate::map::{DoorStatus, Entity, Replica, World, stands};
 use crate::robot::{Belief, GoalFact};
 use crate::semantics::predicate;
 use crate::units::ReplicaId;
@@ -17,6 +17,12 @@ impl State {
         let Ok(now) = self.uncarried() else { return false };
         let status = now.replicas.get(&thing).and_then(|it| stands(now, it));
         self.opens_furniture() && status == Some(DoorStatus::Closed)
+    }
+
+    /// Whether a thing has doors, a lid or drawers, so that in it is not on it.
+    pub(super) fn has_doors(&self, thing: ReplicaId) -> bool {
+        let status = |now: &World| now.replicas.get(&thing).and_then(|it| stands(now, it));
+        self.uncarried().ok().and_then(status).is_some()
     }
 
     fn opens_furniture(&self) -> bool {

@@ -148,6 +148,10 @@ impl State {
                         relations.support_of(thing) == Some(holder)
                             && !relations.is_inside(thing, holder)
                     }
+                    // … and what is behind its door is taken out before it is put on top.
+                    (Relation::On, Entity::Replica(thing), Entity::Replica(holder)) => {
+                        relations.is_inside(thing, holder) && self.has_doors(holder)
+                    }
                     _ => false,
                 };
                 let held = lifted.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);

@@ -73,6 +73,7 @@ mod reading;
 #[cfg(feature = "recordings")]
 mod recording;
 pub(crate) mod rehearsal;
+mod round;
 mod route;
 mod rule_files;
 mod rules;

@@ -146,6 +146,10 @@ pub(super) fn surprise_in_words(world: &World, surprise: &Surprise, language: La
                 let what = Obstruction::Replica(id);
                 told_in(Case::Genitive, "{} нет в руке", "{} is not in the hand", what)
             }
+            // One that opens them found it locked, or shut when it should have been open.
+            Refusal::Shut(id) if world.robot.opens => {
+                told("{}: закрыто", "{} is shut", Obstruction::Replica(id))
+            }
             Refusal::Shut(id) => told(
                 "{}: дверцы закрыты, а дверцы мебели робот не открывает",
                 "{} is shut, and the robot does not open doors of furniture",

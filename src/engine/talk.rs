@@ -2,7 +2,7 @@
 
 use crate::geometry::{Barrier, Method, NoRoute, Ride};
 use crate::language::Language;
-use crate::language::command::{Misheard, is_command, is_order};
+use crate::language::command::{Misheard, is_command, is_order, without_marks};
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Corrected, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said,
@@ -174,11 +174,14 @@ impl State {
                 _ => None,
             }
         };
-        self.asker(&senses)?.resolve(sentence, memory, &strict).map_err(|Misread(unanswered)| {
-            let several = unanswered.doubt.kind() == "ambiguous";
-            let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
-            misheard(unanswered).into()
-        })
+        self.asker(&senses)?.resolve(sentence, memory, &strict).map_err(
+            |Misread(mut unanswered)| {
+                unanswered.text = without_marks(&unanswered.text).into_owned();
+                let several = unanswered.doubt.kind() == "ambiguous";
+                let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
+                misheard(unanswered).into()
+            },
+        )
     }
 
     /// A line that corrects itself, as it is meant: see [`Asker::corrected`].
@@ -530,6 +533,17 @@ impl Senses for RobotSenses<'_> {
         let around = self.engine.around().map_err(|e| e.to_string())?;
         let without = around.without(avoided, to.area()).map_err(|e| e.to_string())?;
         self.way_around(&without, from, to, language, Detail::Region)
+    }
+
+    fn round(&self, things: &[Thing]) -> Vec<Thing> {
+        let entity = |thing: &Thing| match thing {
+            Thing::Entity(entity) => Some(*entity),
+            _ => None,
+        };
+        let all: Option<Vec<Entity>> = things.iter().map(entity).collect();
+        let order = all.and_then(|all| self.engine.round(&all));
+        order
+            .map_or_else(|| things.to_vec(), |order| order.into_iter().map(|n| things[n]).collect())
     }
 
     fn beyond_arm(&self, thing: ReplicaId) -> Option<f64> {

@@ -521,7 +521,12 @@ impl Vehicle for Simulator {
             let there = Replica { area, frame, ..held.clone() };
             self.truth.replicas.insert(thing, there);
             let stays = rests(&Scene::of(&self.truth, self.map), thing);
+            let shut = self.shut_in(thing);
             self.truth.replicas.remove(&thing);
+            // A hand gets into nothing that is shut.
+            if let Some(around) = shut {
+                return Err(Refusal::Shut(around).into());
+            }
             if !stays {
                 return Err(Refusal::NoRoom(thing).into());
             }

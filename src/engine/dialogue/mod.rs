@@ -35,7 +35,7 @@ use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
 };
 use crate::language::question::{
-    Aside, Conditional, Corrected, Doubt, Memory, Unanswered, aside, asks_whether, begs,
+    Aside, Conditional, Corrected, Doubt, Memory, Unanswered, aside, asks_whether, begs, behind_no,
     conditional, hinged, sentences, unaddressed,
 };
 use crate::map::{Entity, World};
@@ -300,6 +300,13 @@ impl Hearing<'_, '_> {
         if let Some(whole) = self.engine.resumed(line, &self.dialogue.memory)? {
             return self.obey(&whole, awaited);
         }
+        // "No, put the other one there" amends nothing, and is an order of its own.
+        if let Some(order) = behind_no(line).filter(|order| !order.contains('?') && has_verb(order))
+            && (is_order(order)
+                || self.engine.understand_in(order, &mut self.dialogue.memory.clone()).is_ok())
+        {
+            return self.hear(order);
+        }
         if let (Some(Aside::Yes | Aside::No), false) = (said, awaited) {
             let text = language.pick(
                 "Я ни о чём не спрашивал. Спросите или прикажите.",
@@ -379,10 +386,15 @@ impl Hearing<'_, '_> {
         self.put(Outcome::Condition { holds, answer: Box::new(answer) }, &text, language)?;
         let order = if holds { &conditional.then } else { &conditional.otherwise };
         match order {
-            Some(order) => self.hear(order),
+            Some(order) => self.hear(order)?,
             // What was waited for is so.
-            None if holds && conditional.waits => Ok(()),
-            None => self.put(Outcome::Waiting, conditional.undone(), language),
+            None if holds && conditional.waits => {}
+            None => self.put(Outcome::Waiting, conditional.undone(), language)?,
+        }
+        match &conditional.also {
+            Some(also) if self.has_failed() => self.not_begun(also),
+            Some(also) => self.hear(also),
+            None => Ok(()),
         }
     }
 

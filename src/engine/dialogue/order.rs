@@ -1,7 +1,7 @@
 //! What is given as a task alone: an order, or several, and nothing that is only asked.
 
 use crate::engine::Error;
-use crate::language::command::{in_time, is_order, waiting};
+use crate::language::command::{has_verb, in_time, is_order, waiting};
 use crate::language::question::{Corrected, conditional, unaddressed};
 
 use super::{Event, Given, Hearing, Outcome};
@@ -23,7 +23,10 @@ impl Hearing<'_, '_> {
         let parts = match self.engine.parts_of(task, &self.dialogue.memory)? {
             // «Проверь, открыт ли холодильник» orders nothing but an answer.
             Some(parts) if parts.len() == 1 => return self.ask(&parts[0]),
-            None if !self.engine.is_command(task)? && self.engine.asks_something(task)? => {
+            None if !self.engine.is_command(task)?
+                && self.engine.asks_something(task)?
+                && !self.ends_in_an_order(task) =>
+            {
                 return self.ask(task);
             }
             Some(parts) if parts.len() > 1 => {
@@ -46,6 +49,12 @@ impl Hearing<'_, '_> {
         Ok(())
     }
 
+    /// «Все подушки с кровати положи на диван»: a question may begin so, and this orders.
+    fn ends_in_an_order(&self, task: &str) -> bool {
+        let heard = || self.engine.understand_in(task, &mut self.dialogue.memory.clone());
+        has_verb(task) && !task.contains('?') && heard().is_ok()
+    }
+
     fn one_order(&mut self, order: &str) -> Result<(), Error> {
         let language = self.dialogue.language;
         let in_order = in_time(order).filter(|order| is_order(order));
@@ -58,7 +67,8 @@ impl Hearing<'_, '_> {
             let (text, spoken) = (answer.text.clone(), answer.language);
             self.put(Outcome::Condition { holds, answer: Box::new(answer) }, &text, spoken)?;
             let then = if holds { &conditional.then } else { &conditional.otherwise };
-            let nothing = then.is_none() && conditional.first.is_none();
+            let nothing =
+                [then, &conditional.first, &conditional.also].iter().all(|order| order.is_none());
             idle = nothing.then(|| conditional.undone());
         }
         if idle.is_none() {

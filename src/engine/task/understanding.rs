@@ -8,10 +8,10 @@ use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
 use crate::language::command::{
     Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
-    without_clock,
+    with_names_marked, without_clock, without_marks,
 };
 use crate::language::question::{
-    Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged,
+    Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged, unaddressed,
 };
 use crate::map::Entity;
 use crate::units::Point;
@@ -44,7 +44,7 @@ impl State {
                 return Err(Misheard::NoneSuch(Box::new(unclear)).into());
             }
         };
-        let sentence = &*corrected;
+        let sentence = &*unaddressed(&corrected);
         if let Some(conditional) = conditional(sentence) {
             return self.understood_if(&conditional, memory);
         }
@@ -99,8 +99,13 @@ impl State {
         let order = if holds.0 { &conditional.then } else { &conditional.otherwise };
         match order {
             Some(order) => commands.extend(self.understand_in(order, memory)?),
-            None if commands.is_empty() => commands.push(Command::Wait),
+            None if commands.is_empty() && conditional.also.is_none() => {
+                commands.push(Command::Wait)
+            }
             None => {}
+        }
+        if let Some(also) = &conditional.also {
+            commands.extend(self.understand_in(also, memory)?);
         }
         Ok(commands)
     }
@@ -136,7 +141,7 @@ impl State {
     ) -> Result<Vec<Command<Entity>>, Error> {
         without_clock(sentence)?;
         let (sentence, spots) = self.rooms_for_points(sentence)?;
-        let resolved = self.resolve(&sentence, memory)?;
+        let resolved = self.resolve(&with_names_marked(&sentence, self.forms()?), memory)?;
         let entity = |thing| match thing {
             Thing::Entity(entity) => Some(entity),
             _ => None,
@@ -160,7 +165,8 @@ impl State {
             .holding(&held);
         let windows: Vec<(Entity, Option<u32>)> =
             resolved.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
-        let resolved = resolved.text;
+        let resolved =
+            with_names_marked(&without_marks(&resolved.text), self.forms()?).into_owned();
         let mut commands = match listener.hear(&resolved) {
             Ok(commands) => commands,
             Err(misheard) => {

@@ -160,14 +160,17 @@ fn says_whither(said: &Said, words: &Range<usize>, sort: Sort) -> bool {
 
 /// «Положи карандаш на диван, а ручку на комод»: the verb once more.
 pub(super) fn verb_again(said: &Said) -> Option<String> {
-    segments(said).windows(2).find_map(|pair| {
-        let [before, next] = pair else { return None };
-        let (verb, taken, kind) = before.begins_with(said)?;
-        let told = object(said, &(verb + taken..before.words.end));
+    let all = segments(said);
+    (1..all.len()).find_map(|n| {
+        let (before, next) = (&all[n - 1], &all[n]);
+        // «Положи карандаш и ручку на диван, а …»: what is listed has the verb of the first.
+        let lead = all[..n].iter().rev().find(|segment| !segment.verbs.is_empty())?;
+        let (verb, taken, kind) = lead.begins_with(said)?;
+        let own = (verb + taken).max(before.words.start)..before.words.end;
+        let told = if own.is_empty() { (0..0, None) } else { object(said, &own) };
         let begin = first_word(said, &next.words)?;
         let named = object(said, &next.words);
         let goes = |words: &Range<usize>| says_whither(said, words, Sort::of(kind));
-        let own = verb + taken..before.words.end;
         let objects = !told.0.is_empty() && !named.0.is_empty();
         let role = |place: Option<(Relation, Role)>| place.map(|(_, role)| role);
         // "… from the hall to the bath, and the cup to the kitchen"
@@ -305,6 +308,10 @@ mod tests {
             (
                 "Положи карандаш на диван, а ручку на комод",
                 "Положи карандаш на диван, а Положи ручку на комод",
+            ),
+            (
+                "Положи карандаш и ручку на диван, а книгу на комод",
+                "Положи карандаш и ручку на диван, а Положи книгу на комод",
             ),
             (
                 "Put one knife on the sofa and another on the bed",

@@ -58,6 +58,19 @@ pub(crate) fn says_whither(word: &str) -> bool {
     found.is_some_and(|(_, meaning)| meaning.says_whither())
 }
 
+/// Whether words say what to do and not yet to what: «Принеси мне», "could you please bring".
+pub(crate) fn names_nothing(keys: &[String]) -> bool {
+    let (mut at, mut has_verb) = (0, false);
+    while at < keys.len() {
+        match longest(&keys[at..].iter().map(String::as_str)) {
+            Some((taken, Meaning::Verb(_))) => (at, has_verb) = (at + taken, true),
+            Some((taken, Meaning::Filler | Meaning::Me)) => at += taken,
+            _ => return false,
+        }
+    }
+    has_verb
+}
+
 /// Whether a text names a place of the robot's own: «на базу».
 pub(crate) fn has_haunt(text: &str) -> bool {
     let keys = word_keys(text);

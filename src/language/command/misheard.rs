@@ -5,6 +5,7 @@ use std::ops::Range;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
+use super::without_marks;
 use crate::question::Unanswered;
 use crate::units::{InEnglish, OwnText, Source, capitalized};
 use crate::words::{Language, alternatives, word_keys, word_ranges};
@@ -121,6 +122,7 @@ impl Misheard {
         else {
             return self;
         };
+        *shown = without_marks(shown).into_owned();
         let own = own_words(shown, said);
         let told = said[own.clone()].to_owned();
         let is_other = word_keys(&told) != word_keys(shown);

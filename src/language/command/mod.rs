@@ -27,6 +27,7 @@ mod going;
 mod grammar;
 mod hints;
 mod misheard;
+mod named;
 mod quantity;
 mod roles;
 mod said;
@@ -40,9 +41,10 @@ mod waiting;
 
 pub(crate) use correction::{Correction, correction, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
-pub(crate) use hints::{awaited, has_haunt, is_haunt, is_of_another, says_whither};
+pub(crate) use hints::{awaited, has_haunt, is_haunt, is_of_another, names_nothing, says_whither};
 pub use hints::{in_time, is_command, is_order, preamble, without_clock};
 pub use misheard::Misheard;
+pub use named::{with_names_marked, without_marks};
 pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
 pub(crate) use verbs::{

@@ -5,12 +5,15 @@
 //! what puts right what was said before it («кружка, то есть, чашка») stays.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
+use super::convenience;
 use super::mark::Mark;
 use super::orders::hinges;
 use super::several::{self, is_tag};
 use super::vocabulary;
-use crate::words::{is_first_person, word_keys};
+use crate::command::is_order;
+use crate::words::{is_first_person, word_keys, word_ranges};
 
 /// A line without the words by which somebody is spoken to, and without particles of speech.
 #[must_use]
@@ -22,6 +25,15 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
         let end = at + mark;
         let keys = word_keys(&line[from..at]);
+        if let Some(polite) = suiting(&line[from..at], &keys) {
+            let (begin, until) = (from + polite.start, from + polite.end);
+            match begin == from && until == at {
+                true => cuts.push((begin, at, end, Cut::within(&line[..from], &line[end..]))),
+                false => cuts.push((begin, until, until, Cut::Comma)),
+            }
+            from = end;
+            continue;
+        }
         let cut = match vocabulary::parted(&keys).filter(|_| !hinges(&keys)) {
             Some(Mark::Called) => Some(Cut::Comma),
             Some(Mark::Hesitates) => asks.then_some(Cut::Comma),
@@ -67,8 +79,21 @@ enum Cut {
 
 impl Cut {
     fn within(before: &str, behind: &str) -> Self {
+        let orders_again = is_order(before) && is_order(behind);
         let joined = before.trim_end().ends_with(',') && !begins_clause(before, behind);
+        let joined = joined && !orders_again;
         if joined { Self::Both } else { Self::Comma }
+    }
+}
+
+/// The bytes of a part of a line that ask only whether something suits who is spoken to: all of it, its end, or what stands
+/// before an order.
+fn suiting(part: &str, keys: &[String]) -> Option<Range<usize>> {
+    let words = word_ranges(part);
+    match convenience::length(keys) {
+        Some(taken) if taken == keys.len() => Some(0..part.len()),
+        Some(taken) if is_order(&part[words[taken].start..]) => Some(0..words[taken].start),
+        _ => Some(words[convenience::at_the_end(keys)?].start..part.len()),
     }
 }
 
@@ -137,6 +162,14 @@ mod tests {
             ("Где, короче, чашка?", "Где чашка?"),
             ("Сколько, значит, стульев на кухне?", "Сколько стульев на кухне?"),
             ("Which cups are, like, red?", "Which cups are red?"),
+            ("Принеси, если тебе не трудно, чашку", "Принеси чашку"),
+            ("Could you, if it's not too much trouble, bring it?", "Could you bring it?"),
+            ("Когда будет минутка, принеси чашку", "принеси чашку"),
+            ("If it is no trouble bring the cup", "bring the cup"),
+            ("Bring the cup if you get a chance, and the jug.", "Bring the cup, and the jug."),
+            ("Bring the cup, if you have time, put it here", "Bring the cup, put it here"),
+            ("Bring, if the door is open, the cup", "Bring, if the door is open, the cup"),
+            ("If you have time", "If you have time"),
             ("Which cups, you know, are red?", "Which cups are red?"),
             (
                 "I'm in the kitchen, you know, where is the bin?",

@@ -32,6 +32,13 @@ pub fn aside(text: &str) -> Option<Aside> {
     (found == Aside::Why || !text.contains('?')).then_some(found)
 }
 
+/// What stands behind a "no" with which a line begins: "No, put it there".
+#[must_use]
+pub fn behind_no(text: &str) -> Option<&str> {
+    let (no, behind) = text.split_once([',', '.', '!'])?;
+    (aside(no) == Some(Aside::No)).then(|| behind.trim_start())
+}
+
 /// Whether a line begs: "Two spoons to the table, please".
 #[must_use]
 pub fn begs(text: &str) -> bool {

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use super::conditions::{self, Another, IF, NOT_SO, SO, WHEN};
 use super::query::Thing;
 use super::several::sentences;
-use super::{Asker, Memory, opening};
+use super::{Asker, Memory, cut_off, opening};
 use crate::command::{self, is_command, is_order};
 use crate::words::{Case, Language, is_first_person, phrase_at, word_keys, word_ranges};
 
@@ -189,35 +190,6 @@ fn asked(claim: &str) -> Option<String> {
     Some(format!("{be} {what}{not} {state}?"))
 }
 
-/// What refers to a condition that was asked: it is so, or it is not.
-const SO: [&str; 12] = [
-    "если да",
-    "если так",
-    "если это так",
-    "если есть",
-    "если нашел",
-    "если найдешь",
-    "if so",
-    "if yes",
-    "if it is",
-    "if they are",
-    "if there is",
-    "if there are",
-];
-const NOT_SO: [&str; 11] = [
-    "иначе",
-    "в противном случае",
-    "если нет",
-    "если же нет",
-    "если это не так",
-    "otherwise",
-    "or else",
-    "if not",
-    "if it is not",
-    "if it isn t",
-    "else",
-];
-
 /// Whether words only refer to a condition that was asked: "if so", «иначе».
 pub(super) fn hinges(keys: &[String]) -> bool {
     let words = keys.join(" ");
@@ -286,6 +258,8 @@ pub struct Conditional {
     /// What is to be done if so.
     pub then: Option<String>,
     pub otherwise: Option<String>,
+    /// What is ordered under another condition, whatever comes of this one: «…, и если …».
+    pub also: Option<String>,
     /// «когда», "as soon as": it was to be waited for.
     pub waits: bool,
 }
@@ -296,24 +270,9 @@ pub(super) fn is_under_condition(text: &str) -> bool {
     begins && !text.trim_end().ends_with('?') && conditional(text).is_some()
 }
 
-/// What an order hinges on begins so.
-const IF: [&str; 7] =
-    ["если", "if", "in case", "provided", "provided that", "в случае если", "unless"];
-
 /// An order under a condition; none where the text has none, or orders nothing under it.
 #[must_use]
 pub fn conditional(text: &str) -> Option<Conditional> {
-    /// What is waited for; of the person and the robot itself nothing is known beforehand.
-    const WHEN: [&str; 8] = [
-        "когда",
-        "как только",
-        "сразу как",
-        "when",
-        "whenever",
-        "once",
-        "as soon as",
-        "the moment",
-    ];
     const PERSONS: [&str; 7] = ["you", "i", "we", "ты", "я", "мы", "вы"];
     /// Behind these "if" asks.
     const ASKS: [&str; 14] = [
@@ -382,6 +341,19 @@ pub fn conditional(text: &str) -> Option<Conditional> {
     ];
     if command::is_too_long(text) {
         return None;
+    }
+    if let Some(whole) = cut_off::mended(text) {
+        return conditional(&whole);
+    }
+    // «Если дверь открыта, закрой её, а если закрыта, …»
+    if let Some(Another { before, text: another, instead }) = conditions::another(text)
+        && let Some(mut first) = conditional(before)
+    {
+        let other = if instead { &mut first.otherwise } else { &mut first.also };
+        if other.is_none() {
+            *other = Some(another.to_owned());
+            return Some(first);
+        }
     }
     let (words, keys) = (word_ranges(text), word_keys(text));
     let phrase = |at: usize, all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, at, p)).max();
@@ -455,7 +427,8 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         let first = Some(first).filter(|first| word_ranges(first).len() > 1).map(str::to_owned);
         let otherwise = order((end + length).min(keys.len())..keys.len());
         let waits = false;
-        return Some(Conditional { first, about: None, question, then, otherwise, waits });
+        let about = None;
+        return Some(Conditional { first, about, question, then, otherwise, also: None, waits });
     }
     // "Wait until the door is open, then go in"
     if let Some((at, from)) = command::awaited(&keys) {
@@ -470,7 +443,8 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         let question = asked(&claim).unwrap_or_else(|| format!("{claim}?"));
         let then = next.and_then(|next| order(next..keys.len()));
         let waits = true;
-        return Some(Conditional { first, about: None, question, then, otherwise: None, waits });
+        let (about, otherwise, also) = (None, None, None);
+        return Some(Conditional { first, about, question, then, otherwise, also, waits });
     }
     let gathered = command::in_time(text);
     let awaited = || (0..keys.len()).filter(|_| gathered.is_none()).find(|&n| event(n).is_some());
@@ -512,7 +486,8 @@ pub fn conditional(text: &str) -> Option<Conditional> {
     let (then, otherwise) = if unless { (otherwise, then) } else { (then, otherwise) };
     let about = then.clone().or(otherwise.clone()).filter(|_| !leads);
     let orders = then.is_some() || otherwise.is_some();
-    orders.then_some(Conditional { first: None, about, question, then, otherwise, waits })
+    let (first, also) = (None, None);
+    orders.then_some(Conditional { first, about, question, then, otherwise, also, waits })
 }
 
 impl Conditional {

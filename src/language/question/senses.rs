@@ -36,6 +36,11 @@ pub trait Senses {
         avoided: &[Thing],
         language: Language,
     ) -> Result<Way, String>;
+
+    /// Things in the order in which the robot's way through them is the shortest.
+    fn round(&self, things: &[Thing]) -> Vec<Thing> {
+        things.to_vec()
+    }
     /// How much farther than its arm reaches a thing is from the nearest place at which the robot can stand, cm.
     fn beyond_arm(&self, thing: ReplicaId) -> Option<f64>;
     /// What the robot sees, the nearest first.

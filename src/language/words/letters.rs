@@ -26,6 +26,9 @@ pub(crate) fn is_hyphen(c: char) -> bool {
     matches!(c, '-' | '\u{2010}'..='\u{2015}' | '\u{2212}' | '\u{fe63}' | '\u{ff0d}')
 }
 
+/// Within a word it says that the word is part of a name, whatever it means elsewhere. It combines, and shows nothing.
+pub(crate) const OPAQUE: char = '\u{34f}';
+
 /// Splits a text into words and what lies between them. The runs together are the text.
 pub(crate) fn runs(text: &str) -> Vec<Run<'_>> {
     let mut runs: Vec<Run<'_>> = Vec::new();

@@ -36,7 +36,7 @@ pub(crate) use dictionary::{is_first_person, is_russian_word, ordering_verb, say
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};
 pub use letters::word_ranges;
-pub(crate) use letters::{is_hyphen, phrase_at, word_keys};
+pub(crate) use letters::{OPAQUE, is_hyphen, phrase_at, word_keys};
 pub use list::{Language, alternatives, enumerate};
 pub(crate) use measure::{area, duration, length};
 pub(crate) use number::{Cardinal, Counted};

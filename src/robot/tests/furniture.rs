@@ -112,3 +112,26 @@ fn what_the_robot_cannot_open_is_told_before_it_moves() {
     let (map, _) = starting_pose(&world).unwrap();
     assert!(Scene::of(&truth, map).replicas.contains_key(&thing(&world, "Лекарство")));
 }
+
+/// No hand gets into what is shut, whatever who sends it there believes.
+#[test]
+fn nothing_is_put_through_a_shut_door() {
+    for wardrobe in ["Шкаф-1", "Шкаф-2"] {
+        let world = flat(wardrobe, true);
+        let (around, medicine) = (thing(&world, wardrobe), thing(&world, "Лекарство"));
+        let (map, pose) = starting_pose(&world).unwrap();
+        let mut truth = world.clone();
+        let held = truth.replicas.remove(&medicine).unwrap();
+        let (area, frame) = (held.area, held.frame);
+        for open in [false, true] {
+            let stands = truth.replicas.get_mut(&around).unwrap();
+            let object = world.objects[&stands.object].clone();
+            orthoframe_map::set_open(stands, &object, open);
+            let robot = Simulator::new(truth.clone(), map, pose);
+            let mut robot = robot.laden(Some(held.clone()), &[], &[]);
+            let put = robot.put(medicine, area, frame, &mut Watch::of(&Stop::new()));
+            let is_shut = matches!(put, Err(Unfinished::Met(Refusal::Shut(id))) if id == around);
+            assert!(is_shut != open && put.is_ok() == open, "{put:?}");
+        }
+    }
+}

@@ -1,7 +1,10 @@
 //! A sentence cut into tokens: which words are a name, a value, a property, a number, or a word of the vocabulary.
 
+use std::ops::Range;
+
 use super::pointing::stands_for_one;
 use super::{Found, Sentence, Tok, Token};
+use crate::command::without_marks;
 use crate::map::Entity;
 use crate::question::compared::quantity;
 use crate::question::lexicon::{Extension, Lexicon, Meaning};
@@ -17,7 +20,8 @@ use crate::words::{Language, word_ranges};
 impl<'t> Sentence<'t> {
     pub(in super::super) fn new(text: &'t str, lexicon: &Lexicon) -> Self {
         let words = word_ranges(text);
-        let keys: Vec<String> = words.iter().map(|range| name_key(&text[range.clone()])).collect();
+        let key = |range: &Range<usize>| name_key(&without_marks(&text[range.clone()]));
+        let keys: Vec<String> = words.iter().map(key).collect();
         let mut sentence = Self {
             text,
             language: Language::of(text),

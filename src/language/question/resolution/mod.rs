@@ -566,6 +566,10 @@ impl Resolver<'_, '_> {
                 self.left_standing(&mine, edits);
                 continue;
             };
+            let things = match sort == Sort::Go && phrase.noun.all {
+                true => self.knowledge.senses.round(&things),
+                false => things,
+            };
             let name = self.knowledge.listed(&things, Case::Accusative);
             let mut said = self.bytes(&phrase.words);
             if let Some((_, words)) = value {

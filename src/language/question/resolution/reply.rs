@@ -391,10 +391,10 @@ impl Asker<'_> {
             let at = usize::try_from(rank).ok()?.checked_sub(1)?;
             return candidates.get(at).map(|t| vec![*t]);
         }
-        noun.plural = true;
+        let several = std::mem::replace(&mut noun.plural, true);
         let found = knowledge.find(&noun, true).ok()?;
         let meant: Vec<Thing> = found.into_iter().filter(|t| candidates.contains(t)).collect();
-        (meant.len() == 1).then_some(meant)
+        (meant.len() == 1 || several && !meant.is_empty()).then_some(meant)
     }
 }
 

@@ -94,7 +94,9 @@ impl<'t> Anew<'t> {
         while let Some(key) = keys.get(at) {
             let small = BEFORE.contains(&key.as_str());
             let wrong = amends && at > 0 && (WRONG.contains(&key.as_str()) || key == "ее");
-            if !small && !wrong {
+            // «тот, что на столе» is what is meant instead.
+            let points = keys.get(at + 1).is_some_and(|k| k == "что" || k.starts_with("котор"));
+            if !small && (!wrong || points) {
                 break;
             }
             // "not the red one, the white one": up to the mark all is what was wrong.
@@ -279,6 +281,7 @@ impl Asker<'_> {
         let (of_object, whither) = (plain[..starts].trim(), plain[starts..].trim());
         let are_places =
             |items: &[Item]| items.iter().all(|item| matches!(item, Item::Place { .. }));
+        let mut is_placed = false;
         let said = match object {
             [] => None,
             // "Go to the kitchen. – No, the bedroom"
@@ -293,6 +296,7 @@ impl Asker<'_> {
                 if phrase.person.is_none() && phrase.pronoun.is_none() && are_places(places) =>
             {
                 let kindless = phrase.noun.head.anything;
+                is_placed = !places.is_empty() || !phrase.noun.restrictions.is_empty();
                 Some(self.amending(of_object, kindless, ordered, sentence.language)?)
             }
             [Item::Value(_)] => Some(self.amending(of_object, true, ordered, sentence.language)?),
@@ -303,6 +307,10 @@ impl Asker<'_> {
             _ => return None,
         };
         if let (Some(said), Some((at, _)), true) = (&said, &ordered.object, whither.is_empty()) {
+            // "Take the phone from the sofa. – No, the one on the table": no longer from the sofa.
+            if is_placed {
+                return Some(ordered.retold(&[(at, said)]));
+            }
             let mut whole = ordered.without_there(at.end);
             whole.replace_range(at.clone(), said);
             return Some(whole);

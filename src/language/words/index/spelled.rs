@@ -3,7 +3,7 @@
 //! Invariant: two spellings of one name have one key.
 
 use super::Spelling;
-use crate::words::letters::cyrillic_twin;
+use crate::words::letters::{OPAQUE, cyrillic_twin};
 use unicode_normalization::UnicodeNormalization;
 
 /// «Стул-17» is «Стул» and «-17», «Палата-3-б» is «Палата» and «-3-б»: the tag holds digits, capitals and single
@@ -65,7 +65,7 @@ impl Spelled {
         if text.chars().all(|c| (c as u32) < 0x300 || ('\u{400}'..='\u{4ff}').contains(&c)) {
             Self::of_nfc(text)
         } else {
-            Self::of_nfc(&text.nfc().collect::<String>())
+            Self::of_nfc(&text.nfc().filter(|c| *c != OPAQUE).collect::<String>())
         }
     }
 
