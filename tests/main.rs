@@ -56,6 +56,7 @@ mod odd_floors;
 mod odd_worlds;
 mod openings;
 mod orders;
+mod paraphrases;
 mod partition;
 mod passframes;
 mod places_of_orders;

@@ -18,13 +18,11 @@ mod assemble;
 mod bare;
 mod beside;
 mod compared;
-mod constructions;
 mod courtesy;
 mod datalog;
 mod denial;
 mod departed;
 mod discourse;
-mod done;
 mod doubt;
 mod doubts;
 mod everyday;
@@ -45,6 +43,7 @@ mod one_of_two;
 mod opening;
 mod orders;
 mod outlive;
+mod paraphrase;
 mod premise;
 mod pronouns;
 mod purposes;
@@ -80,6 +79,7 @@ pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
 pub use orders::{Conditional, Hinged, conditional, hinged};
+pub use paraphrase::{FILES as PARAPHRASES, Paraphrases, language_of};
 pub use query::{
     Best, Claim, Courtesy, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };
@@ -534,6 +534,7 @@ impl Asker<'_> {
     fn plain(&self, text: &str) -> String {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
+        let text = self.mind.paraphrases.plain(&text);
         let named = storeys::named(&text, self.world, self.relations, here);
         let named = here::named(&named, || self.own_room(&named));
         everyday::plain(&named, &self.mind.lexicon).into_owned()
