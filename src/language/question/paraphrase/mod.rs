@@ -260,7 +260,7 @@ mod tests {
             5:16 “…” as on the left
             6:35 as many choices as on the left: 2
             7:16 a number, “not” or “}”
-            8:15 a word
+            8:15 “)” or “|”
             9:5 a name in Latin capitals
             10:12 a word
             11:6 a word that is required
