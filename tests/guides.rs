@@ -96,11 +96,14 @@ fn a_relation_of_ones_own_is_asked_in_its_own_words() {
     // A file of words adds more: to the relation, and to what the map calls a sofa.
     let words = rules.path().join("language/ru");
     std::fs::create_dir_all(&words).unwrap();
-    std::fs::write(words.join("own.lang"), pieces(guide, "lang")[0]).unwrap();
+    std::fs::write(words.join("own.lang"), pieces(guide, "lang").concat()).unwrap();
     let engine = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
     let (text, _) = ask(&engine, "Что на расстоянии руки от Кровати-1?").unwrap();
     assert!(text.contains("Лекарство"), "{text}");
     assert!(ask(&engine, "Тахта в Комнате-В?").unwrap().0.starts_with("Да"));
+    // Another way to ask is what it stands for.
+    let where_is = ask(&engine, "Где Лекарство?").unwrap().0;
+    assert_eq!(ask(&engine, "Где тусуется Лекарство?").unwrap().0, where_is);
     // A folder is a language.
     assert_eq!(ask(&engine, "Gibt es einen Stuhl in Room Y?").unwrap().0, "Nein.");
     assert_eq!(ask(&engine, "Welche Farbe hat das Sofa?").unwrap().0, "braun.");

@@ -63,6 +63,7 @@ mod one_tongue;
 mod openings;
 mod orders;
 mod own_places;
+mod paraphrases;
 mod partition;
 mod parts_of_orders;
 mod passframes;

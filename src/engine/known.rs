@@ -303,7 +303,7 @@ impl Known {
 
     /// The nouns, read when first asked for.
     pub(super) fn mind(&self) -> &Mind {
-        self.mind.get_or_init(|| Arc::new(Mind::of(&self.world)))
+        self.mind.get_or_init(|| Arc::new(Mind::of(&self.world, self.rules.paraphrases())))
     }
 
     /// The words of the map's values, declined when first asked for.

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
+use crate::language::question::Paraphrases;
 use crate::meaning::{FILES, Grammar, words_beside};
 use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
@@ -59,6 +60,14 @@ impl Rules {
     /// which is built in is sound, and read when first asked for.
     pub(super) fn grammar(&self) -> &Grammar {
         self.grammar.get_or_init(Grammar::built_in)
+    }
+
+    /// Other ways to ask, of the same files; those built in need no grammar.
+    pub(super) fn paraphrases(&self) -> Arc<Paraphrases> {
+        match self.grammar.get() {
+            Some(grammar) => Arc::clone(&grammar.paraphrases),
+            None => Paraphrases::built_in(),
+        }
     }
 
     /// `rules` in the working directory, when there is such a directory.

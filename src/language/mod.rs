@@ -19,8 +19,8 @@
 //!   choice is made. Nothing that a person writes makes it panic.
 //! - *Questions.* Before it is read, a sentence is put into words that the map knows (`everyday`: diminutives
 //!   and other names of a thing; `purposes`: sorts above the map's types, each with its role in what `uses`
-//!   lists as done with them; `storeys`: "upstairs"; `rephrase` and `constructions`: other ways to say it;
-//!   `here`: the robot's room), and cut where it asks several things (`several`). It becomes a `Query` before
+//!   lists as done with them; `storeys`: "upstairs"; `paraphrase`, by the lines of the language files, and
+//!   `rephrase`: other ways to say it; `here`: the robot's room), and cut where it asks several things (`several`). It becomes a `Query` before
 //!   the map is looked at; one that lacks a noun, value, number or size of the sentence is not understood
 //!   (`assemble/used`); what has no answer gets its words in `doubts`. An `Answer` is data before it is a
 //!   sentence; a rule shown for a query of relations gives the same bindings as the answer (a test runs it).
@@ -64,6 +64,7 @@ pub mod directions;
 pub mod names;
 pub mod question;
 pub mod report;
+pub mod scan;
 pub mod words;
 pub mod zones;
 

@@ -2,6 +2,8 @@
 //! that carries a meaning.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
+use std::sync::Arc;
 
 use super::fault::{LangError, LangFault, LangFaults};
 use super::features::Features;
@@ -11,9 +13,10 @@ use super::grammar::{
 };
 use super::sense::{Function, Meaning, Type};
 use super::term::{Dimension, RoleId, Sorts};
-use crate::language::question::Property;
+use crate::language::question::{Paraphrases, Property, language_of};
+use crate::language::scan::Unread;
 use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, WordHints, english};
-use crate::units::{Source, nearest_name};
+use crate::units::{Bilingual, Source, nearest_name};
 
 /// The sentences that a language must have, and the parts that they may name.
 const SENTENCES: [&str; 11] = [
@@ -35,14 +38,26 @@ impl Grammar {
     #[must_use]
     pub fn of(files: &[(&str, Source)]) -> (Self, Option<LangFaults>) {
         let mut faults = Vec::new();
+        let mut paraphrases = Paraphrases::default();
         let mut by_folder: BTreeMap<String, Vec<(Source, Vec<Statement>)>> = BTreeMap::new();
         for (path, source) in files {
             let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
             let statements = file::read(source, &mut faults);
+            for statement in &statements {
+                if let Statement::Paraphrase(at) = statement
+                    && let Err(error) = add_paraphrase(&mut paraphrases, path, source, at)
+                {
+                    faults.push(LangFault { error: error.into(), file: source.clone() });
+                }
+            }
             by_folder.entry(folder.to_owned()).or_default().push((source.clone(), statements));
         }
-        let mut grammar =
-            Self { roles: Vec::new(), signatures: Vec::new(), tongues: BTreeMap::new() };
+        let mut grammar = Self {
+            roles: Vec::new(),
+            signatures: Vec::new(),
+            tongues: BTreeMap::new(),
+            paraphrases: Arc::default(),
+        };
         let all = by_folder.values().flatten();
         for (source, statement) in
             all.flat_map(|(source, all)| all.iter().map(move |s| (source, s)))
@@ -57,6 +72,7 @@ impl Grammar {
             let tongue = Building::of(&grammar.roles, &statements, &mut faults);
             grammar.tongues.insert(folder, tongue);
         }
+        grammar.paraphrases = Arc::new(paraphrases);
         let faults = (!faults.is_empty()).then_some(LangFaults { faults });
         (grammar, faults)
     }
@@ -94,6 +110,23 @@ impl Grammar {
         }
         Ok(())
     }
+}
+
+/// Reads another way to say something in the language of a file.
+fn add_paraphrase(
+    all: &mut Paraphrases,
+    path: &str,
+    source: &Source,
+    at: &Range<usize>,
+) -> Result<(), Unread> {
+    let Some(language) = language_of(path) else {
+        let expected = Bilingual::new(
+            "другая строка: перефразировки есть у языков ru и en",
+            "another line: the languages ru and en have paraphrases",
+        );
+        return Err(Unread { expected, at: at.start..at.start + 1 });
+    };
+    all.read(language, source.text(), at)
 }
 
 /// A name that nothing declares, with the nearest that something does.
@@ -244,7 +277,7 @@ impl<'g> Building<'g> {
 
     fn add(&mut self, statement: &Statement, source: &Source) -> Checked<()> {
         match statement {
-            Statement::Role { .. } => {}
+            Statement::Role { .. } | Statement::Paraphrase(_) => {}
             Statement::Order { free } => self.tongue.free = *free,
             Statement::Say { name, text } => {
                 if !SENTENCES.contains(&name.text.as_str()) {

@@ -5,6 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
+use crate::language::scan::Unread;
 use crate::units::{Bilingual, Source};
 
 /// One fault of a grammar file. The line in which it stands is left out; the rest works.
@@ -86,6 +87,12 @@ pub enum LangError {
         #[label("здесь")]
         at: SourceSpan,
     },
+}
+
+impl From<Unread> for LangError {
+    fn from(Unread { expected, at }: Unread) -> Self {
+        Self::Syntax { expected, at: at.into() }
+    }
 }
 
 /// All faults of grammar files, each with its file.

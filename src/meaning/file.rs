@@ -9,6 +9,7 @@
 //! role   left_of(x: Thing, y: Thing) = LEFT_OF(x, y) if sector(_, y, _, _, _)         and only of what has a front
 //! Prep   <- на[loc] | сверху на[loc] = on               words of a category, with what they mean
 //! NP     <- a:Adj n:NP {agree a n} = n & a              a phrase
+//! same   что содержит X = что внутри X               another way to say something: `language::question::Paraphrases`
 //! list(x & p) <- какие x:NP[nom] pos? p:PP* {cost 1}    a frame: what a clause asks
 //! ```
 //!
@@ -19,6 +20,7 @@ use std::ops::Range;
 
 use super::fault::{LangError, LangFault};
 use super::features::Features;
+use crate::language::scan::{Scanner, statements};
 use crate::units::{Source, name_key};
 
 /// A name with its place.
@@ -51,6 +53,8 @@ pub(crate) enum Statement {
         /// What must hold for the role to be told of at all: of a round table no left side is.
         needs: Option<String>,
     },
+    /// Another way to say something, or words of several such: where it stands.
+    Paraphrase(Range<usize>),
     Rule(Rule),
 }
 
@@ -117,8 +121,8 @@ pub(crate) enum Expr {
 pub(crate) fn read(source: &Source, faults: &mut Vec<LangFault>) -> Vec<Statement> {
     let mut found = Vec::new();
     for range in statements(source.text()) {
-        let mut parser = Parser { text: source.text(), at: range.start, end: range.end, depth: 0 };
-        match parser.statement() {
+        let mut parser = Parser { scan: Scanner::of(source.text(), &range), depth: 0 };
+        match parser.statement(&range) {
             Ok(statement) => found.push(statement),
             Err(error) => faults.push(LangFault { error, file: source.clone() }),
         }
@@ -126,29 +130,8 @@ pub(crate) fn read(source: &Source, faults: &mut Vec<LangFault>) -> Vec<Statemen
     found
 }
 
-/// Where statements stand: a line and those after it that begin with a blank.
-fn statements(text: &str) -> Vec<Range<usize>> {
-    let mut found: Vec<Range<usize>> = Vec::new();
-    let mut at = 0;
-    for line in text.split_inclusive('\n') {
-        let range = at..at + line.len();
-        at = range.end;
-        let bare = line.trim();
-        if bare.is_empty() || bare.starts_with("//") {
-            continue;
-        }
-        match found.last_mut() {
-            Some(last) if line.starts_with([' ', '\t']) => last.end = range.end,
-            _ => found.push(range),
-        }
-    }
-    found
-}
-
 struct Parser<'t> {
-    text: &'t str,
-    at: usize,
-    end: usize,
+    scan: Scanner<'t>,
     /// Of calls within calls.
     depth: usize,
 }
@@ -159,54 +142,27 @@ const MAX_DEPTH: usize = 64;
 type Parsed<T> = Result<T, LangError>;
 
 impl<'t> Parser<'t> {
-    fn blank(&mut self) {
-        loop {
-            let rest = &self.text[self.at..self.end];
-            let trimmed = rest.trim_start();
-            self.at += rest.len() - trimmed.len();
-            if !trimmed.starts_with("//") {
-                return;
-            }
-            self.at += trimmed.find('\n').unwrap_or(trimmed.len());
-        }
-    }
-
     fn rest(&mut self) -> &'t str {
-        self.blank();
-        &self.text[self.at..self.end]
+        self.scan.rest()
     }
 
     fn takes(&mut self, mark: &str) -> bool {
-        let is_there = self.rest().starts_with(mark);
-        if is_there {
-            self.at += mark.len();
-        }
-        is_there
+        self.scan.takes(mark)
     }
 
     fn wants<T>(&mut self, expected: (&'static str, &'static str)) -> Parsed<T> {
-        let rest = self.rest();
-        let length = rest.chars().next().map_or(0, char::len_utf8);
-        // What lacks at the end lacks behind the last word.
-        let at = if length == 0 { self.text[..self.end].trim_end().len() } else { self.at };
-        Err(LangError::Syntax { expected: expected.into(), at: (at, length).into() })
+        Ok(self.scan.wants(expected)?)
     }
 
     fn needs(&mut self, mark: &str, expected: (&'static str, &'static str)) -> Parsed<()> {
-        if self.takes(mark) { Ok(()) } else { self.wants(expected) }
+        Ok(self.scan.needs(mark, expected)?)
     }
 
     /// Letters, digits, «_» and apostrophes.
     fn name(&mut self) -> Option<Name> {
-        let rest = self.rest();
         let is_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
-        let length = rest.find(|c| !is_of_name(c)).unwrap_or(rest.len());
-        if length == 0 {
-            return None;
-        }
-        let at = self.at..self.at + length;
-        self.at += length;
-        Some(Name { text: rest[..length].to_owned(), at })
+        let (text, at) = self.scan.run(is_of_name)?;
+        Some(Name { text: text.to_owned(), at })
     }
 
     fn named(&mut self, expected: (&'static str, &'static str)) -> Parsed<Name> {
@@ -216,19 +172,12 @@ impl<'t> Parser<'t> {
         }
     }
 
-    fn ends(&mut self) -> Parsed<()> {
-        if self.rest().is_empty() {
-            Ok(())
-        } else {
-            self.wants(("конец строки", "the end of the line"))
-        }
-    }
-
-    fn statement(&mut self) -> Parsed<Statement> {
+    fn statement(&mut self, range: &Range<usize>) -> Parsed<Statement> {
         let first = self.named((
-            "void, loose, order, role, категория или форма",
-            "void, loose, order, role, a category or a form",
+            "void, loose, order, role, same, set, категория или форма",
+            "void, loose, order, role, same, set, a category or a form",
         ))?;
+        let follows_blank = self.scan.text[self.scan.at..].starts_with([' ', '\t']);
         let is_rule = self.rest().starts_with(['<', '(']);
         let statement = match first.text.as_str() {
             "void" | "loose" => {
@@ -247,17 +196,21 @@ impl<'t> Parser<'t> {
             "say" if !is_rule => {
                 let name = self.named(("имя ответа", "the name of an answer"))?;
                 self.needs("\"", ("текст в кавычках", "a text in quotation marks"))?;
-                let Some(length) = self.text[self.at..self.end].find('"') else {
+                let Some(length) = self.scan.text[self.scan.at..self.scan.end].find('"') else {
                     return self.wants(("закрывающая кавычка", "a closing quotation mark"));
                 };
-                let text = self.text[self.at..self.at + length].to_owned();
-                self.at += length + 1;
+                let text = self.scan.text[self.scan.at..self.scan.at + length].to_owned();
+                self.scan.at += length + 1;
                 Statement::Say { name, text }
             }
             "role" if !is_rule => self.role()?,
+            "same" | "set" if follows_blank => {
+                self.scan.at = self.scan.end;
+                Statement::Paraphrase(range.clone())
+            }
             _ => Statement::Rule(self.rule(first)?),
         };
-        self.ends()?;
+        self.scan.ends()?;
         Ok(statement)
     }
 
@@ -265,7 +218,7 @@ impl<'t> Parser<'t> {
         let mut names = vec![self.named(("слово", "a word"))?];
         loop {
             if self.takes(",") {
-                names.push(Name { text: ",".to_owned(), at: self.at - 1..self.at });
+                names.push(Name { text: ",".to_owned(), at: self.scan.at - 1..self.scan.at });
             } else if let Some(name) = self.name() {
                 names.push(name);
             } else {
@@ -294,7 +247,7 @@ impl<'t> Parser<'t> {
         self.needs("=", ("«=»", "“=”"))?;
         let body = self.rest();
         let body = body.split("//").next().unwrap_or_default().trim();
-        self.at = self.end;
+        self.scan.at = self.scan.end;
         let (body, needs) = match body.split_once(" if ") {
             Some((body, needs)) => (body, Some(needs.trim().to_owned())),
             None => (body, None),
@@ -365,10 +318,10 @@ impl<'t> Parser<'t> {
                 continue;
             }
             let is_word = rest.starts_with(['~', ',', ':']) || {
-                let ahead = self.at;
+                let ahead = self.scan.at;
                 let name = self.named(("слово или категория", "a word or a category"))?;
                 let named = self.rest().starts_with(':') && !self.rest().starts_with(": ");
-                self.at = ahead;
+                self.scan.at = ahead;
                 !named && !name.text.starts_with(|c: char| c.is_ascii_uppercase())
             };
             if !is_word {
@@ -406,7 +359,7 @@ impl<'t> Parser<'t> {
     fn word(&mut self) -> Parsed<Word> {
         for mark in [",", ":"] {
             if self.takes(mark) {
-                let name = Name { text: mark.to_owned(), at: self.at - 1..self.at };
+                let name = Name { text: mark.to_owned(), at: self.scan.at - 1..self.scan.at };
                 return Ok(Word { name, declines: false, features: Features::ALL });
             }
         }
@@ -438,13 +391,13 @@ impl<'t> Parser<'t> {
         if !self.takes("[") {
             return Ok(Features::ALL);
         }
-        let start = self.at;
+        let start = self.scan.at;
         let mut names = Vec::new();
         while let Some(name) = self.name() {
             names.push(name.text);
         }
         let found = Features::named(&names.iter().map(String::as_str).collect::<Vec<_>>());
-        let at = (start, self.at - start).into();
+        let at = (start, self.scan.at - start).into();
         self.needs("]", ("«]»", "“]”"))?;
         found.map_err(|name| LangError::Unknown {
             what: ("признак", "feature").into(),

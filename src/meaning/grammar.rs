@@ -1,13 +1,14 @@
 //! Grammar files checked and made ready to read with.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use super::features::Features;
 use super::file::Repeat;
 use super::sense::{Meaning, Signatures, Type};
 use super::term::Sorts;
 use crate::language::Language;
-use crate::language::question::Part;
+use crate::language::question::{Paraphrases, Part};
 use crate::units::{Carried, Source, carried};
 
 /// Every grammar that there is: what roles mean, and each language's words, phrases and frames.
@@ -16,6 +17,8 @@ pub struct Grammar {
     pub(crate) roles: Vec<Role>,
     pub(crate) signatures: Signatures,
     pub(super) tongues: BTreeMap<String, Tongue>,
+    /// Other ways to ask, for the older reading.
+    pub paraphrases: Arc<Paraphrases>,
 }
 
 /// A relation between things as a language names it, and the relations of the rules that it stands for.
@@ -127,14 +130,16 @@ macro_rules! files {
 }
 
 /// Grammar files that are built in, by their paths within `rules/language`.
-pub static FILES: [(&str, Carried); 10] = files![
+pub static FILES: [(&str, Carried); 12] = files![
     "forms.lang",
     "ru/words.lang",
     "ru/phrases.lang",
     "ru/frames.lang",
+    "ru/paraphrases.lang",
     "en/words.lang",
     "en/phrases.lang",
     "en/frames.lang",
+    "en/paraphrases.lang",
     "de/words.lang",
     "de/phrases.lang",
     "de/frames.lang",

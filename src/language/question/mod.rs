@@ -19,7 +19,6 @@ mod bare;
 mod beside;
 mod compared;
 mod conditions;
-mod constructions;
 mod convenience;
 mod courtesy;
 mod cut_off;
@@ -27,7 +26,6 @@ mod datalog;
 mod denial;
 mod departed;
 mod discourse;
-mod done;
 mod doubt;
 mod doubts;
 mod everyday;
@@ -48,6 +46,7 @@ mod one_of_two;
 mod opening;
 mod orders;
 mod outlive;
+mod paraphrase;
 mod premise;
 mod pronouns;
 mod purposes;
@@ -83,6 +82,7 @@ pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
 pub use orders::{Conditional, Hinged, conditional, hinged};
+pub use paraphrase::{FILES as PARAPHRASES, Paraphrases, language_of};
 pub use query::{
     Best, Claim, Courtesy, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };
@@ -538,6 +538,7 @@ impl Asker<'_> {
     fn plain(&self, text: &str) -> String {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
+        let text = self.mind.paraphrases.plain(&text);
         let named = storeys::named(&text, self.world, self.relations, here);
         let named = here::named(&named, || self.own_room(&named));
         everyday::plain(&named, &self.mind.lexicon).into_owned()

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::units::{InOrder as _, name_key};
-use crate::words::{phrase_at, word_ranges};
+use crate::words::word_ranges;
 
 /// Puts a text plainly, where it is of the rule's construction.
 pub(super) type Rule = fn(&Words<'_>) -> Option<String>;
@@ -34,11 +34,6 @@ impl<'t> Words<'t> {
     pub(super) fn part(&self, words: Range<usize>) -> Option<&'t str> {
         let last = words.end.checked_sub(1).filter(|last| words.start <= *last)?;
         Some(&self.text[self.at.get(words.start)?.start..self.at.get(last)?.end])
-    }
-
-    /// Where a phrase begins, from a place on.
-    pub(super) fn phrase(&self, from: usize, phrase: &str) -> Option<usize> {
-        (from..self.keys.len()).find(|at| phrase_at(&self.keys, *at, phrase).is_some())
     }
 
     /// The text with some words replaced, the last first.

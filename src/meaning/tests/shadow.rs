@@ -8,8 +8,8 @@ use orthoframe_exchange::{Options, read};
 use orthoframe_facts::{Computed, Limits, Value};
 use orthoframe_language::Language;
 use orthoframe_language::question::{
-    Answer as Old, Asker, Lexicon, Memory, Mind, News, Past, Said, Senses, Sighting, Thing,
-    Unanswered, Way,
+    Answer as Old, Asker, Lexicon, Memory, Mind, News, Paraphrases, Past, Said, Senses, Sighting,
+    Thing, Unanswered, Way,
 };
 use orthoframe_language::report::Detail;
 use orthoframe_map::World;
@@ -87,7 +87,7 @@ impl House {
         let world = read(path, &Options::default()).expect("the map reads").world;
         let rules = RelationRules::standard();
         let relations = derive(&world, &rules, world.domain.profile).expect("the rules hold");
-        let mind = Mind::of(&world);
+        let mind = Mind::of(&world, Paraphrases::built_in());
         let words = MapWords::of(&mind.lexicon);
         Self { world, relations, mind, words }
     }

@@ -17,7 +17,7 @@ pub(super) use walls::{Held, Kept};
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};
-use super::{Memory, Senses};
+use super::{Memory, Paraphrases, Senses};
 use crate::map::{DoorKind, Entity, World};
 use crate::semantics::{Around, Relations, Subject};
 use crate::units::{AreaId, InOrder as _, OpeningId, Point, ReplicaId, TypeId};
@@ -161,6 +161,7 @@ impl KnownOpening {
 #[derive(Debug)]
 pub struct Mind {
     pub lexicon: Arc<Lexicon>,
+    pub(super) paraphrases: Arc<Paraphrases>,
     pairs: [OnceLock<Pairs>; RELATIONS.len()],
     openings: OnceLock<Vec<KnownOpening>>,
     by_type: OnceLock<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
@@ -169,21 +170,22 @@ pub struct Mind {
 }
 
 impl Mind {
-    /// The nouns of a world; all else when it is first asked for.
+    /// The nouns of a world, asked of in words that these paraphrases put plainly; all else when it is first asked for.
     #[must_use]
-    pub fn of(world: &World) -> Self {
-        Self::with(Arc::new(Lexicon::of(world)))
+    pub fn of(world: &World, paraphrases: Arc<Paraphrases>) -> Self {
+        Self::with(Arc::new(Lexicon::of(world)), paraphrases)
     }
 
     /// The same nouns, of a world in which things stand elsewhere and all else is as it was.
     #[must_use]
     pub fn renewed(&self) -> Self {
-        Self::with(Arc::clone(&self.lexicon))
+        Self::with(Arc::clone(&self.lexicon), Arc::clone(&self.paraphrases))
     }
 
-    fn with(lexicon: Arc<Lexicon>) -> Self {
+    fn with(lexicon: Arc<Lexicon>, paraphrases: Arc<Paraphrases>) -> Self {
         Self {
             lexicon,
+            paraphrases,
             pairs: std::array::from_fn(|_| OnceLock::new()),
             openings: OnceLock::new(),
             by_type: OnceLock::new(),
