@@ -316,6 +316,7 @@ const NO_MEANINGS: &[(&str, &str, &str)] = &[
     ("engine/drawing.rs", "USUAL", "drawing"),
     ("engine/measured.rs", "IN_CM", "a unit"),
     ("engine/queue.rs", "SAME", "rounding"),
+    ("engine/round.rs", "UNREACHED", "a length beyond any way"),
     ("engine/seeing.rs", "CONFIDENCE", "statistics"),
     ("engine/seeing.rs", "LASER_HEIGHT", "a property of a device where none is told"),
     ("language/command/blame.rs", "ALIKE", "likeness of letters"),
