@@ -54,6 +54,7 @@ mod map_editing;
 mod maps;
 mod meanings;
 mod mission_plans;
+mod not_known;
 mod odd_floors;
 mod odd_worlds;
 mod one_tongue;

@@ -4,7 +4,8 @@
 use super::rule::{Rule, Words};
 use crate::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
-pub(super) const RULES: [Rule; 15] = [
+pub(super) const RULES: [Rule; 16] = [
+    price_of_it,
     on_itself,
     contracted,
     framed,
@@ -21,6 +22,19 @@ pub(super) const RULES: [Rule; 15] = [
     made_bed,
     is_free,
 ];
+
+/// «Сколько он стоит?» asks for its price, and counts nothing.
+fn price_of_it(words: &Words<'_>) -> Option<String> {
+    let much = words.find(&["сколько"])?;
+    let one = words.is(much + 1, &["он", "она", "оно"]) && words.is(much + 2, &["стоит"]);
+    let said = |n: usize| words.text[words.at[n].clone()].to_owned();
+    one.then(|| {
+        words.replaced(vec![
+            (much + 1..much + 2, said(much + 2)),
+            (much + 2..much + 3, said(much + 1)),
+        ])
+    })
+}
 
 /// «Я дверь закрыл?»: whether it is closed.
 fn done_to_it(words: &Words<'_>) -> Option<String> {
