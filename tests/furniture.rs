@@ -128,9 +128,8 @@ impl House {
 
     /// Carries out an order in a truth that is as the robot believes; how that truth is then.
     fn order(&mut self, order: &str) -> Result<(TaskAnswer, World), String> {
-        let said =
-            |engine: &Engine, error: &orthoframe::engine::Error| error.say(Language::of(order));
-        let commands = self.engine.understand(order).map_err(|e| said(&self.engine, &e))?;
+        let said = |error: &orthoframe::engine::Error| error.say(Language::of(order));
+        let commands = self.engine.understand(order).map_err(|e| said(&e))?;
         let mut truth = self.engine.world_now().unwrap().clone();
         let mut moved = false;
         let mut tell = |progress: &Progress<'_>| moved |= matches!(progress, Progress::Moved(_));
@@ -150,7 +149,7 @@ impl House {
             }
             Err(error) => {
                 assert!(!moved, "{order}: refused after it had moved");
-                Err(said(&self.engine, &error))
+                Err(said(&error))
             }
         }
     }

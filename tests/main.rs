@@ -57,6 +57,7 @@ mod maps;
 mod meanings;
 mod mission_plans;
 mod names_with_verbs;
+mod not_known;
 mod odd_floors;
 mod odd_worlds;
 mod one_tongue;

@@ -19,7 +19,6 @@ const HOUSES: [&str; 3] = [
 
 fn heard(engine: &Engine, lines: &[&str]) -> Result<Vec<Command<Entity>>, String> {
     let mut memory = Memory::default();
-    let world = engine.world().unwrap();
     let mut last = Ok(Vec::new());
     for line in lines {
         last = engine

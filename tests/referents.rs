@@ -623,3 +623,30 @@ fn they_stay_those_whose_place_was_asked() {
     }
     assert!(told > 10, "{told}");
 }
+
+/// "Where are the books? What is next to them? Go to them": to the books, or to what stands beside them, nothing says.
+#[test]
+fn they_in_an_order_are_none_of_two_lists() {
+    let (mut asked, mut told) = (0, 0);
+    for map in [HOUSE, FLAT] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        let types = world.types.object.entries.values().map(|kind| kind.name_en.to_lowercase());
+        for kinds in types.collect::<BTreeSet<String>>().iter().map(|kind| english::plural(kind)) {
+            let mut memory = Memory::default();
+            let several = ask(&engine, &format!("Where are the {kinds}?"), &mut memory);
+            let Some(several) = several.filter(|answer| answer.things.len() > 1) else { continue };
+            let beside = ask(&engine, "What is next to them?", &mut memory);
+            let Some(beside) = beside.filter(|answer| !answer.things.is_empty()) else { continue };
+            asked += 1;
+            let apart = |thing: &Thing| !beside.things.contains(thing);
+            if several.things.iter().filter(|thing| apart(thing)).count() < 2 {
+                continue;
+            }
+            told += 1;
+            let order = engine.understand_in("Go to them", &mut memory);
+            assert!(order.is_err(), "{kinds}: {order:?}");
+        }
+    }
+    assert!(told > 5, "{told} of {asked}");
+}

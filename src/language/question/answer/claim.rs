@@ -242,7 +242,7 @@ impl Knowledge<'_> {
     }
 
     /// What is so of all of which the map tells, beside so many of which it does not.
-    fn as_far_as_told(&self, text: &str, untold: usize) -> String {
+    pub(super) fn as_far_as_told(&self, text: &str, untold: usize) -> String {
         match self.is_russian() {
             true => format!("насколько говорит карта, {text}; о других ({untold}) она не говорит"),
             false => format!("as far as the map tells, {text}; of {untold} more it does not tell"),

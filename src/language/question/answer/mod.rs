@@ -191,6 +191,12 @@ impl Knowledge<'_> {
             draft.text = untold;
             draft.said = Some(Said::Unknown);
         }
+        let denied =
+            matches!(draft.said, Some(Said::No | Said::Nothing)) && draft.things.is_empty();
+        if let Some(untold) = self.partly_untold(query).filter(|_| denied) {
+            draft.text = self.as_far_as_told(&draft.text, untold);
+            draft.said = Some(Said::Unknown);
+        }
         if let Some(untold) = self.untold(query) {
             draft.text = format!("{}; {untold}", draft.text.trim_end_matches('.'));
         }
@@ -238,6 +244,21 @@ impl Knowledge<'_> {
             return None;
         }
         self.unsaid(&self.lexicon().values.entry(filter.value).property, &all)
+    }
+
+    /// "Are there glass things in the kitchen?", where none that the map tells of is: of how many it does not tell. What has no
+    /// such state at all, as a table is neither on nor off, is none of them.
+    fn partly_untold(&self, query: &Query) -> Option<usize> {
+        let noun = query.sought()?;
+        let [filter] = &noun.filters[..] else { return None };
+        let property = &self.lexicon().values.entry(filter.value).property;
+        let of_all = matches!(property, Property::Colour | Property::Material);
+        if filter.negated || noun.best.is_some() || !of_all {
+            return None;
+        }
+        let all = self.find(&Noun { filters: Vec::new(), ..noun.clone() }, true).ok()?;
+        let untold = all.iter().filter(|thing| !self.tells(**thing, filter)).count();
+        (untold > 0).then_some(untold)
     }
 
     /// What the map does not say of some things.

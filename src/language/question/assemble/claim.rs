@@ -87,6 +87,10 @@ impl Frame<'_, '_> {
         {
             return Some(Query::Sees(only.noun.clone()));
         }
+        // "Is the television visible from the sofa?": what is seen from elsewhere is not known.
+        if self.has(Mark::See) && self.spot(&[Rel::From]).is_some() {
+            return None;
+        }
         let seen = self.has(Mark::See) && !self.nouns.is_empty();
         // «Бананы остались?», of which nothing else is asked.
         let left = |key: &String| key.starts_with("остал") || key.starts_with("остаё");

@@ -8,6 +8,7 @@
 //! «найди чашку»): then it is the nearest.
 
 mod choice;
+mod contested;
 mod object;
 mod open;
 mod place;
@@ -28,7 +29,7 @@ use used::Used;
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
-use super::memory::{Exchange, Ordered, Waiting};
+use super::memory::{Ordered, Waiting};
 use super::query::{Head, Rel, Restriction, Thing};
 use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
@@ -162,9 +163,12 @@ impl Asker<'_> {
         match resolved {
             Ok(mut edits) => {
                 edits.order_by_key(|edit| edit.at.start);
-                if !edits.iter().any(|edit| edit.object)
-                    && let Some((at, reference, candidates)) =
-                        self.one_of_listed(&text, &sentence, memory)
+                let listed = match edits.iter().any(|edit| edit.object) {
+                    true => None,
+                    false => self.one_of_listed(&text, &sentence, memory),
+                };
+                if let Some((at, reference, candidates)) =
+                    listed.or_else(|| self.either_several(&sentence, memory))
                 {
                     let told = candidates.clone();
                     memory.waiting = Some(Waiting { text, at, candidates: told, language });
@@ -219,39 +223,6 @@ impl Asker<'_> {
             memory.waiting = Some(Waiting { text, at, candidates, language });
         }
         Misread(Box::new(self.knowledge(language, memory).unanswered(doubt)))
-    }
-
-    /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её», "What is next to the mug? – A plate. – Bring it": which of
-    /// several that were told at once, or of what was asked by and what was told, nothing says.
-    fn one_of_listed(
-        &self,
-        text: &str,
-        sentence: &Sentence<'_>,
-        memory: &Memory,
-    ) -> Option<(Range<usize>, String, Vec<Thing>)> {
-        let (words, reference, pronoun) =
-            sentence.items().into_iter().find_map(|item| match item {
-                Item::Noun(phrase) => Some((phrase.words, phrase.noun.text, phrase.pronoun?)),
-                _ => None,
-            })?;
-        if matches!(pronoun, Pronoun::They | Pronoun::There) {
-            return None;
-        }
-        let knowledge = self.knowledge(sentence.language, memory);
-        let (_, sort) = *command::clauses(text).first()?;
-        let fits = |t: &&Thing| knowledge.can(sort, **t) && knowledge.agrees(pronoun, **t);
-        let candidates = memory.exchanges.iter().enumerate().map(|(n, exchange)| {
-            // What it was asked by may be meant as well; and so may what was spoken of before and has not been left since.
-            let before = memory.exchanges.get(n + 1).map_or(&[][..], Exchange::topics);
-            let topics = exchange.topics().iter().enumerate();
-            let topics = topics.filter(|(n, t)| *n == 0 || before.contains(t)).map(|(_, t)| t);
-            let mut all: Vec<Thing> = exchange.members().iter().filter(fits).copied().collect();
-            all.extend(topics.filter(fits).filter(|t| !exchange.members().contains(t)));
-            all
-        });
-        let candidates = candidates.into_iter().find(|all| !all.is_empty())?;
-        let at = sentence.words.get(words.start)?.start..sentence.words.get(words.end - 1)?.end;
-        (candidates.len() > 1).then_some((at, reference, candidates))
     }
 
     /// A name, number or description of a text that its rewriting has lost, and not because it is not meant. What a state
