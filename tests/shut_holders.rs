@@ -77,6 +77,9 @@ fn what_is_put_into_what_is_shut_lies_in_it_or_nothing_was_touched() {
                         done += 1;
                     }
                     (false, true) => {
+                        // What stands in another shut thing is out of reach, and that one is told.
+                        let own = format!("{} is shut", name(&world, holder));
+                        assert!(!said.contains(&own), "{map}: {order}: {said}");
                         assert!(!said.contains("does not open"), "{map}: {order}: {said}");
                         refused += 1;
                     }

@@ -146,7 +146,17 @@ impl Simulator {
     /// The shut thing in which a thing is.
     fn shut_in(&self, thing: ReplicaId) -> Option<ReplicaId> {
         let scene = Scene::of(&self.truth, self.map);
-        shut_around(&self.truth, &NATURE, &scene, thing).ok()?
+        let shut = |thing| shut_around(&self.truth, &NATURE, &scene, thing).ok().flatten();
+        let around = shut(thing)?;
+        // A dishwasher has a door of its own to the room, though the counter into which it is built is shut.
+        let has_own_way = |r: &Replica| {
+            let is_shut =
+                matches!(stands(&self.truth, r), Some(DoorStatus::Closed | DoorStatus::Locked));
+            let fixed = !self.truth.has_trait(r.id, "portable");
+            let holds = is_within(&scene, thing, r.id) && !is_within(&scene, around, r.id);
+            fixed && !is_shut && holds && shut(r.id).is_none()
+        };
+        (!self.truth.replicas.values().any(has_own_way)).then_some(around)
     }
 
     /// Every moment at which the motion changed.
@@ -638,4 +648,13 @@ const SIGHT_RANGE: f64 = 1_000.0;
 
 fn edges_of(polygon: &Polygon, of: Obstruction) -> impl Iterator<Item = Edge> + '_ {
     polygon.edges().map(move |(a, b)| Edge { a, b, of })
+}
+
+/// Whether a thing stands within the outline and the height of another.
+fn is_within(scene: &Scene, thing: ReplicaId, around: ReplicaId) -> bool {
+    let (Some(own), Some(outer)) = (scene.replicas.get(&thing), scene.replicas.get(&around)) else {
+        return false;
+    };
+    let beside = outer.bounds.contains(own.bounds.min) && outer.bounds.contains(own.bounds.max);
+    thing != around && beside && outer.bottom <= own.bottom && own.top <= outer.top
 }
