@@ -48,11 +48,11 @@ fn a_line_of_the_users_own_is_another_way_to_ask() {
 fn the_faults_of_the_users_lines_have_their_places() {
     let own =
         "same где тусуется X = где Y\nsame … дома = дома …\nvoid ну\nsame V:(а | б) = V:(в)\n";
-    let told = with_own("ru/own.lang", own).err().expect("there are faults");
+    let told = with_own("ru/own.lang", own).expect_err("there are faults");
     for place in ["own.lang:1:27", "own.lang:2:15", "own.lang:4:22"] {
         assert!(told.contains(place), "{place}: {told}");
     }
-    let told = with_own("de/own.lang", "same wo steckt X = wo ist X\n").err().expect("a fault");
+    let told = with_own("de/own.lang", "same wo steckt X = wo ist X\n").expect_err("a fault");
     assert!(told.contains("own.lang:1:1"), "{told}");
 }
 

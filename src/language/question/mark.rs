@@ -1,6 +1,6 @@
 //! What the words of a question do in it, whichever words they are.
 
-use super::query::{Closeness, Dimension, Extreme, Quantity, Rel};
+use super::query::{Closeness, Courtesy, Dimension, Extreme, Quantity, Rel};
 use crate::report::Detail;
 
 /// What a word or phrase does in a question.
@@ -164,6 +164,15 @@ pub(super) enum Mark {
     Total,
     /// «во всём доме», "in the whole house": wherever it is.
     Everywhere,
+    /// «спасибо»: nothing but polite, and what may stand beside it.
+    Polite(Courtesy),
+    BesidePolite,
+    /// "um": a sound drawn out.
+    Sound,
+    /// "seriously", "btw": says nothing of the world.
+    Interjection,
+    /// «только»: a particle by which a sentence says less or more.
+    Limits,
     /// The noun that an English adjective stands for: "the red one".
     One,
     A,

@@ -2,23 +2,21 @@
 //!
 //! Invariant: a word that limits or denies («только», "only") is none of them; the vocabulary of questions has those.
 
+use super::mark::Mark;
+use super::vocabulary;
 use crate::words;
 
 /// Whether a word, in [`name_key`](crate::units::name_key) form, that neither the map nor the vocabulary knows, may be left
 /// out of any sentence.
 pub(super) fn says_nothing(key: &str) -> bool {
     is_sound(key)
-        || is_interjection(key)
+        || is(key, Mark::Interjection)
         || curses(key)
-        || (!limits(key) && words::says_nothing(key))
+        || (!is(key, Mark::Limits) && words::says_nothing(key))
 }
 
 /// "um", "hmmm", «эээ», «ммм»: a sound drawn out.
 fn is_sound(key: &str) -> bool {
-    const SOUNDS: [&str; 22] = [
-        "um", "uh", "er", "erm", "hm", "m", "mhm", "ah", "oh", "eh", "aw", "э", "эм", "м", "хм",
-        "гм", "ах", "ох", "ой", "эх", "уф", "ага",
-    ];
     let mut short = String::new();
     for c in key.chars() {
         if !short.ends_with(c) {
@@ -26,61 +24,7 @@ fn is_sound(key: &str) -> bool {
         }
     }
     // A single letter may be a name.
-    key.chars().count() > 1 && SOUNDS.contains(&short.as_str())
-}
-
-fn is_interjection(key: &str) -> bool {
-    const SAID: [&str; 48] = [
-        "seriously",
-        "already",
-        "hey",
-        "hi",
-        "hello",
-        "hiya",
-        "yo",
-        "wow",
-        "oops",
-        "whoops",
-        "gosh",
-        "jeez",
-        "damn",
-        "darn",
-        "dammit",
-        "bloody",
-        "yikes",
-        "ugh",
-        "phew",
-        "kindly",
-        "anyway",
-        "anyhow",
-        "maybe",
-        "perhaps",
-        "actually",
-        "honestly",
-        "basically",
-        "literally",
-        "simply",
-        "mate",
-        "buddy",
-        "pal",
-        "dude",
-        "folks",
-        "btw",
-        "lol",
-        "pls",
-        "plz",
-        "thx",
-        "hopefully",
-        "presumably",
-        "apparently",
-        "probably",
-        "obviously",
-        "definitely",
-        "really",
-        "gonna",
-        "kinda",
-    ];
-    SAID.contains(&key)
+    key.chars().count() > 1 && is(&short, Mark::Sound)
 }
 
 /// «эти чёртовы ключи»: an adjective that says only how the speaker feels.
@@ -90,23 +34,9 @@ fn curses(key: &str) -> bool {
         .any(|stem| key.starts_with(stem))
 }
 
-/// Particles by which a sentence says less or more.
-fn limits(key: &str) -> bool {
-    const LIMITING: [&str; 12] = [
-        "только",
-        "лишь",
-        "даже",
-        "почти",
-        "именно",
-        "хоть",
-        "едва",
-        "ни",
-        "не",
-        "нет",
-        "всего",
-        "якобы",
-    ];
-    LIMITING.contains(&key)
+/// Whether the vocabulary has a word under a mark.
+fn is(key: &str, mark: Mark) -> bool {
+    vocabulary::taken_by(mark, std::slice::from_ref(&key.to_owned())).is_some()
 }
 
 #[cfg(test)]

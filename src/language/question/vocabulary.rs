@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::mark::{Mark, Pronoun};
-use super::query::{Closeness, Dimension, Extreme, Rel};
+use super::query::{Closeness, Courtesy, Dimension, Extreme, Rel};
 use super::uses;
 use crate::report::Detail;
 use crate::units::{Carried, InOrder as _, carried, name_key};
@@ -186,6 +186,15 @@ const MARKS: &[Mark] = &[
     Mark::Listed,
     Mark::Total,
     Mark::Everywhere,
+    Mark::Polite(Courtesy::Greeting),
+    Mark::Polite(Courtesy::Thanks),
+    Mark::Polite(Courtesy::Farewell),
+    Mark::Polite(Courtesy::HowAreYou),
+    Mark::Polite(Courtesy::Assent),
+    Mark::BesidePolite,
+    Mark::Sound,
+    Mark::Interjection,
+    Mark::Limits,
     Mark::Called,
     Mark::Hesitates,
     Mark::Particle,
@@ -199,16 +208,22 @@ type Phrases = Vec<(Vec<String>, Mark)>;
 fn table() -> &'static HashMap<String, Phrases> {
     static TABLE: OnceLock<HashMap<String, Phrases>> = OnceLock::new();
     TABLE.get_or_init(|| {
-        let mut table: HashMap<String, Phrases> = HashMap::new();
-        for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| !is_apart(*mark)) {
-            let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
-            table.entry(words[0].clone()).or_default().push((words, mark));
-        }
+        let mut table = by_first_word(|mark| !is_apart(mark));
         for phrases in table.values_mut() {
             phrases.order_by_key(|(words, _)| std::cmp::Reverse(words.len()));
         }
         table
     })
+}
+
+/// The phrases of such marks, by their first words.
+fn by_first_word(of: impl Fn(Mark) -> bool) -> HashMap<String, Phrases> {
+    let mut table: HashMap<String, Phrases> = HashMap::new();
+    for (mark, phrase) in phrases().into_iter().filter(|(mark, _)| of(*mark)) {
+        let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
+        table.entry(words[0].clone()).or_default().push((words, mark));
+    }
+    table
 }
 
 /// The phrases of the file, each with its mark.
@@ -275,21 +290,34 @@ pub(super) fn parted(words: &[String]) -> Option<Mark> {
     })
 }
 
-/// How many of these words, at their beginning, are a phrase that tells of which things a question goes on to ask.
+/// How many of these words, at their beginning, are a phrase of a mark whose words are looked for by themselves.
 pub(super) fn taken_by(mark: Mark, words: &[String]) -> Option<usize> {
-    static BOUNDS: OnceLock<Phrases> = OnceLock::new();
-    let bounds = BOUNDS.get_or_init(|| {
-        let own = phrases().into_iter().filter(|(mark, _)| is_bound(*mark));
-        own.map(|(mark, phrase)| (phrase.split_whitespace().map(name_key).collect(), mark))
-            .collect()
-    });
-    let own = bounds.iter().filter(|(_, own)| *own == mark).map(|(phrase, _)| phrase);
-    own.filter(|phrase| words.starts_with(phrase)).map(Vec::len).max()
+    begun(words, |own| own == mark).map(|(taken, _)| taken)
+}
+
+/// The longest phrase of such marks at the beginning of these words.
+pub(super) fn begun(words: &[String], of: impl Fn(Mark) -> bool) -> Option<(usize, Mark)> {
+    static BOUNDS: OnceLock<HashMap<String, Phrases>> = OnceLock::new();
+    let bounds = BOUNDS.get_or_init(|| by_first_word(is_bound));
+    let own = bounds.get(words.first()?)?.iter().filter(|(_, own)| of(*own));
+    let begin = own.filter(|(phrase, _)| words.starts_with(phrase));
+    begin.map(|(phrase, mark)| (phrase.len(), *mark)).max_by_key(|(taken, _)| *taken)
 }
 
 /// Other marks have the same words where a sentence is read word by word.
 fn is_bound(mark: Mark) -> bool {
-    matches!(mark, Mark::These | Mark::Listed | Mark::Total | Mark::Everywhere)
+    matches!(
+        mark,
+        Mark::These
+            | Mark::Listed
+            | Mark::Total
+            | Mark::Everywhere
+            | Mark::Polite(_)
+            | Mark::BesidePolite
+            | Mark::Sound
+            | Mark::Interjection
+            | Mark::Limits
+    )
 }
 
 fn is_apart(mark: Mark) -> bool {
