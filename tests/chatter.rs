@@ -33,7 +33,9 @@ fn some(questions: &[String], step: usize) -> impl Iterator<Item = &String> {
 }
 
 /// What people say around a question: before it, and behind it.
-const RUSSIAN: [(&str, &str); 13] = [
+const RUSSIAN: [(&str, &str); 15] = [
+    ("Хочу присесть, ", ""),
+    ("Мне надо поспать, ", ""),
     ("Я всё перепутал: ", ""),
     ("слушай, ", ""),
     ("Муж опять ворчит, ", ""),
@@ -49,7 +51,9 @@ const RUSSIAN: [(&str, &str); 13] = [
     ("Дай-ка подумать... ", ""),
 ];
 
-const ENGLISH: [(&str, &str); 11] = [
+const ENGLISH: [(&str, &str); 13] = [
+    ("I want to sit down, ", ""),
+    ("I need to take a nap, so ", ""),
     ("By the way, ", ""),
     ("listen, ", ""),
     ("My wife keeps nagging me, ", ""),

@@ -9,8 +9,9 @@ use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{Denial, Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::question::values::{Property, ValueId};
+use crate::question::{opening, vocabulary};
 use crate::report::Detail;
-use crate::words::Language;
+use crate::words::{Language, is_first_person, word_keys};
 
 impl Frame<'_, '_> {
     pub(super) fn of_robot(&self) -> Option<Query> {
@@ -191,6 +192,31 @@ impl Frame<'_, '_> {
         }
     }
 
+    /// «Мне надо поспать, что рядом с дверью?»: a need that is told, and a question of something else.
+    pub(super) fn tells_need(&self) -> bool {
+        let Some((told, asked)) = self.sentence.text.split_once(',') else { return false };
+        let named = |noun: &Noun| asked.contains(&noun.text);
+        let places = self.spots.iter().flat_map(|spot| &spot.nouns);
+        let names_thing = self.nouns.iter().map(|s| &s.noun).chain(places).any(named);
+        let (told, asked) = (word_keys(told), word_keys(asked));
+        let marks = |words: &[String]| -> Vec<Mark> {
+            let marks = (0..words.len()).filter_map(|at| vocabulary::longest(&words[at..]));
+            marks.map(|(_, mark)| mark).collect()
+        };
+        let needs = |words: &[String]| -> Vec<Mark> {
+            let is_need = |mark: &Mark| matches!(mark, Mark::Sit | Mark::LieDown);
+            marks(words).into_iter().filter(is_need).collect()
+        };
+        let names = names_thing || marks(&asked).contains(&Mark::You);
+        let (told_needs, asked_needs) = (needs(&told), needs(&asked));
+        let asks_for_it = told_needs.iter().any(|need| asked_needs.contains(need));
+        // "…, so what is on the table?"
+        let asks = (0..asked.len().min(2)).any(|at| opening::begins_question(&asked[at..]));
+        let of_me =
+            told.first().is_some_and(opening::is_me) || told.iter().any(|key| is_first_person(key));
+        names && of_me && !told_needs.is_empty() && !asks_for_it && asks
+    }
+
     pub(super) fn use_of_place(&self) -> Option<Query> {
         let within = || -> Vec<Restriction> {
             self.spots
@@ -259,7 +285,14 @@ impl Frame<'_, '_> {
             let of_one = what.as_ref().is_some_and(|what| {
                 what.head.things.as_deref().is_some_and(|things| things != [Thing::Robot])
             });
-            if of_one && use_for != Use::Put {
+            // "I want to sit down, where is the book?" asks for the book.
+            let of_another = what.as_ref().is_some_and(|what| {
+                let head = &what.head;
+                !head.anything
+                    && !self.is_things(what)
+                    && !(head.kinds.is_empty() && head.named.is_empty())
+            });
+            if (of_one || of_another) && use_for != Use::Put {
                 return None;
             }
             return Some(Query::Place { use_for, what, within, whether });

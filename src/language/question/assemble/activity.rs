@@ -285,7 +285,7 @@ impl Frame<'_, '_> {
     }
 
     /// "things", «предметы»: anything at all.
-    fn is_things(&self, noun: &Noun) -> bool {
+    pub(super) fn is_things(&self, noun: &Noun) -> bool {
         let things = |k: &_| self.lexicon.kind(*k).extension == Extension::Things;
         noun.head.named.is_empty()
             && !noun.head.kinds.is_empty()

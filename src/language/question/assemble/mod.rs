@@ -44,6 +44,9 @@ pub(super) fn query(
         return if sentence.words.is_empty() { Err(Doubt::Empty) } else { Ok(Query::Help) };
     }
     let frame = Frame::of(sentence, lexicon, &items, referent)?;
+    if frame.tells_need() {
+        return Err(Doubt::not_understood(sentence.text));
+    }
     if let Some(queries) = each_of(sentence, lexicon, &items, &frame, referent) {
         return Ok(Query::Several(queries));
     }
