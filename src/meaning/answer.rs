@@ -216,6 +216,10 @@ impl Asking<'_> {
         }
         let so = self.all_that(desc, claims, true)?;
         if let Quant::None | Quant::Some = desc.quant {
+            let mods = desc.mods.iter().chain(claims).cloned().collect();
+            if so.is_empty() && !self.values_are_known(&Desc { mods, ..desc.clone() })? {
+                return Ok(Found::Unknown);
+            }
             return Ok(Found::Truth(so.is_empty() == (desc.quant == Quant::None)));
         }
         let all = self.all(desc, true)?;
@@ -229,7 +233,9 @@ impl Asking<'_> {
         if values.is_empty() {
             return Ok(true);
         }
-        let bare = Desc { mods: others, ..desc.clone() };
+        // "Is anything made of gold?" is not of doors alone, though the map gives the material of nothing else.
+        let sorts = if desc.head == Head::Any { desc.sorts.or(Sorts::THING) } else { desc.sorts };
+        let bare = Desc { mods: others, sorts, ..desc.clone() };
         let all = self.all(&bare, false)?;
         for value in values.iter().filter_map(value_in) {
             if !all.is_empty() && self.known(&bare, value)? != all {

@@ -2,7 +2,6 @@
 //! that carries a meaning.
 
 use std::collections::{BTreeMap, HashMap};
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::fault::{LangError, LangFault, LangFaults};
@@ -11,12 +10,12 @@ use super::file::{self, Element, ElementKind, Expr, Left, Name, Repeat, Rule, St
 use super::grammar::{
     Category, Entry, Frame, Grammar, OF_THE_MAP, Overload, Phrase, Role, Slot, Tongue,
 };
+use super::paraphrase;
 use super::sense::{Function, Meaning, Type};
 use super::term::{Dimension, RoleId, Sorts};
-use crate::language::question::{Paraphrases, Property, language_of};
-use crate::language::scan::Unread;
+use crate::language::question::{Paraphrases, Property};
 use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, WordHints, english};
-use crate::units::{Bilingual, Source, nearest_name};
+use crate::units::{Source, nearest_name};
 
 /// The sentences that a language must have, and the parts that they may name.
 const SENTENCES: [&str; 11] = [
@@ -45,7 +44,7 @@ impl Grammar {
             let statements = file::read(source, &mut faults);
             for statement in &statements {
                 if let Statement::Paraphrase(at) = statement
-                    && let Err(error) = add_paraphrase(&mut paraphrases, path, source, at)
+                    && let Err(error) = paraphrase::add(&mut paraphrases, path, source, at)
                 {
                     faults.push(LangFault { error: error.into(), file: source.clone() });
                 }
@@ -110,23 +109,6 @@ impl Grammar {
         }
         Ok(())
     }
-}
-
-/// Reads another way to say something in the language of a file.
-fn add_paraphrase(
-    all: &mut Paraphrases,
-    path: &str,
-    source: &Source,
-    at: &Range<usize>,
-) -> Result<(), Unread> {
-    let Some(language) = language_of(path) else {
-        let expected = Bilingual::new(
-            "другая строка: перефразировки есть у языков ru и en",
-            "another line: the languages ru and en have paraphrases",
-        );
-        return Err(Unread { expected, at: at.start..at.start + 1 });
-    };
-    all.read(language, source.text(), at)
 }
 
 /// A name that nothing declares, with the nearest that something does.

@@ -30,6 +30,7 @@ mod features;
 mod file;
 mod grammar;
 mod outcome;
+mod paraphrase;
 mod query;
 mod read;
 mod say;
