@@ -288,9 +288,8 @@ impl Frame<'_, '_> {
             // "I want to sit down, where is the book?" asks for the book.
             let of_another = what.as_ref().is_some_and(|what| {
                 let head = &what.head;
-                !head.anything
-                    && !self.is_things(what)
-                    && !(head.kinds.is_empty() && head.named.is_empty())
+                let is_any = head.kinds.is_empty() && head.named.is_empty();
+                !(head.anything || is_any || self.is_things(what))
             });
             if (of_one || of_another) && use_for != Use::Put {
                 return None;
