@@ -26,6 +26,14 @@ fn done_to(engine: &Engine, order: &str, memory: &mut Memory) -> Option<Vec<Enti
     commands.iter().map(|command| command.what().map(|what| what.id)).collect()
 }
 
+/// Whether a "no" behind an order is heard; it then means these and nothing else.
+fn instead(engine: &Engine, no: &str, memory: &Memory, second: &[Entity]) -> bool {
+    let Ok(Some(whole)) = engine.resumed(no, memory) else { return false };
+    let meant = done_to(engine, &whole, &mut memory.clone());
+    assert!(meant.as_deref().is_none_or(|meant| meant == second), "{no}: {whole}");
+    meant.is_some()
+}
+
 #[test]
 fn no_the_one_over_there_is_another_of_its_kind() {
     let (mut heard, mut missed) = (0, Vec::new());
@@ -62,18 +70,9 @@ fn no_the_one_over_there_is_another_of_its_kind() {
                 }
                 for said in ["No, the one on", "Not that one, the one on"] {
                     let no = format!("{said} {}", name(there));
-                    let Ok(Some(whole)) = engine.resumed(&no, &memory) else {
-                        missed.push(format!("{order} – {no}"));
-                        continue;
-                    };
-                    let meant = done_to(&engine, &whole, &mut memory.clone());
-                    assert!(
-                        meant.is_none() || meant.as_ref() == Some(second),
-                        "{order} – {no}: {whole}"
-                    );
-                    match meant {
-                        Some(_) => heard += 1,
-                        None => missed.push(format!("{order} – {no}: {whole}")),
+                    match instead(&engine, &no, &memory, second) {
+                        true => heard += 1,
+                        false => missed.push(format!("{order} – {no}")),
                     }
                 }
                 let hints = names::hints(world, first[0]);
@@ -91,18 +90,9 @@ fn no_the_one_over_there_is_another_of_its_kind() {
                 for said in ["Нет, тот, что на", "Нет, ту, которая на", "Не тот, а тот, что на"]
                 {
                     let no = format!("{said} {place}");
-                    let Ok(Some(whole)) = engine.resumed(&no, &memory) else {
-                        missed.push(format!("{order} – {no}"));
-                        continue;
-                    };
-                    let meant = done_to(&engine, &whole, &mut memory.clone());
-                    assert!(
-                        meant.is_none() || meant.as_ref() == Some(second),
-                        "{order} – {no}: {whole}"
-                    );
-                    match meant {
-                        Some(_) => heard += 1,
-                        None => missed.push(format!("{order} – {no}: {whole}")),
+                    match instead(&engine, &no, &memory, second) {
+                        true => heard += 1,
+                        false => missed.push(format!("{order} – {no}")),
                     }
                 }
             }

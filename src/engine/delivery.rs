@@ -7,7 +7,7 @@ use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, InOrder as _, MapId, ReplicaId};
 
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::{Error, Method, RequestError, State};
 
 impl State {
@@ -19,9 +19,7 @@ impl State {
         let world = self.world()?;
         match entity {
             Entity::Replica(id) if world.has_trait(id, "portable") => Ok(id),
-            other => {
-                Err(RequestError::NotPortable { name: in_both(world, world.name(other)) }.into())
-            }
+            other => Err(RequestError::NotPortable { name: both(world, other) }.into()),
         }
     }
 
@@ -142,7 +140,7 @@ impl State {
     /// It has no inside, or the robot does not get in.
     pub(super) fn must_be_opened(&self, support: ReplicaId) -> Result<bool, Error> {
         let world = self.world()?;
-        let name = || in_both(world, world.name(Entity::Replica(support)));
+        let name = || both(world, Entity::Replica(support));
         let around = self.around()?;
         let now = around.uncarried();
         let area = now.replicas.get(&support).map(|r| r.area);
@@ -209,7 +207,7 @@ impl State {
                 return Ok(vec![GoalFact { predicate: predicate.to_owned(), args }]);
             }
         }
-        let area = in_both(world, world.name(Entity::Area(area)));
+        let area = both(world, Entity::Area(area));
         Err(RequestError::NoSpace { thing: in_both(world, &name), area }.into())
     }
 
@@ -246,8 +244,8 @@ impl State {
                 laid => return laid,
             }
         }
-        let [area, thing] = [Entity::Map(map), Entity::Replica(thing)]
-            .map(|entity| in_both(world, world.name(entity)));
+        let [area, thing] =
+            [Entity::Map(map), Entity::Replica(thing)].map(|entity| both(world, entity));
         Err(RequestError::NoSpace { thing, area }.into())
     }
 

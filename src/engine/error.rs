@@ -9,7 +9,7 @@ use crate::facts::{AskError, FilesError};
 use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::names::named;
-use crate::map::{MapErrors, World};
+use crate::map::{Entity, MapErrors, World};
 use crate::meaning::LangFaults;
 use crate::robot::MissionError;
 use crate::semantics::RelationError;
@@ -580,10 +580,15 @@ impl Error {
     }
 }
 
+/// The names of what is on the map.
+pub(super) fn both(world: &World, entity: Entity) -> Bilingual {
+    Bilingual::new(world.name(entity).to_owned(), named(world, entity).english())
+}
+
 /// What the map calls so, in both languages; what it does not know goes by the same name in both.
 pub(super) fn in_both(world: &World, name: &str) -> Bilingual {
     match world.find(name).first() {
-        Some(entity) => Bilingual::new(name.to_owned(), named(world, *entity).english()),
+        Some(entity) => both(world, *entity),
         None => name.to_owned().into(),
     }
 }

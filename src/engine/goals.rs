@@ -9,7 +9,7 @@ use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId, Gather as _};
 
 use super::directive_words::floor_place;
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::task::{OPERATOR, thing_of};
 use super::{Error, RequestError, State};
 
@@ -88,7 +88,7 @@ impl State {
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
         let world = self.world()?;
         let name = |e: Entity| world.name(e).to_owned();
-        let both = |e: Entity| in_both(world, world.name(e));
+        let both = |e: Entity| both(world, e);
         let one = |fact: GoalFact| vec![vec![fact]];
         Ok(match command {
             Command::GoTo { to, via, facing } => {
@@ -240,7 +240,7 @@ impl State {
         match goals.is_empty() && !kept.is_empty() {
             true => {
                 let things = kept.iter().map(|name| in_both(world, name)).collect();
-                let name = in_both(world, world.name(from));
+                let name = both(world, from);
                 Err(RequestError::KeptThere { things, name }.into())
             }
             false => Ok(goals),
@@ -361,9 +361,7 @@ impl State {
                 return Ok(vec![fact(predicate::THING_AT_PLACE, vec![name, place])]);
             }
             Some(other) => {
-                return Err(
-                    RequestError::NotPutThere { name: in_both(world, world.name(other)) }.into()
-                );
+                return Err(RequestError::NotPutThere { name: both(world, other) }.into());
             }
             None => relations.area_of(id),
         };
@@ -483,7 +481,7 @@ impl State {
             }
             _ => None,
         };
-        let name = || RequestError::NotADoor { name: in_both(world, world.name(entity)) };
+        let name = || RequestError::NotADoor { name: both(world, entity) };
         Ok(door.ok_or_else(name)?)
     }
 
@@ -527,7 +525,7 @@ impl State {
             })
             .collect();
         if facts.is_empty() {
-            let name = in_both(world, world.name(Entity::Door(door)));
+            let name = both(world, Entity::Door(door));
             return Err(RequestError::LeadsOutside { name }.into());
         }
         Ok(facts)

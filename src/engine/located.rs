@@ -4,7 +4,7 @@ use crate::geometry::{Bounds, FloorPlan, Method, Scene, Target};
 use crate::map::{Entity, World};
 use crate::units::{AreaId, Lengths, MapId, Point};
 
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::known::Known;
 use super::{Error, RequestError};
 
@@ -47,8 +47,7 @@ impl Known {
     /// It is something where one cannot stand.
     pub(super) fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
         let world = self.world();
-        let nowhere =
-            || Error::from(RequestError::NotAPlace { name: in_both(world, world.name(entity)) });
+        let nowhere = || Error::from(RequestError::NotAPlace { name: both(world, entity) });
         let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
         match entity {
             Entity::Map(_) | Entity::Zone(_) => Err(nowhere()),

@@ -6,7 +6,7 @@ use crate::store::{
 };
 use crate::units::{AreaId, Frame, InOrder as _, MapId, ReplicaId};
 
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::history::in_memory;
 use super::located::nowhere_on;
 use super::{Engine, Error, RequestError, State};
@@ -50,7 +50,7 @@ impl State {
         let entity = self.find(name)?;
         let Entity::Replica(id) = entity else {
             let world = self.world()?;
-            return Err(RequestError::NotAThing { name: in_both(world, world.name(entity)) }.into());
+            return Err(RequestError::NotAThing { name: both(world, entity) }.into());
         };
         Ok(&self.world()?.replicas[&id])
     }
@@ -148,9 +148,7 @@ impl State {
         let map = match map.map(|name| self.find(name)).transpose()? {
             Some(Entity::Map(id)) => Some(id),
             Some(other) => {
-                return Err(
-                    RequestError::NotAnArea { name: in_both(world, world.name(other)) }.into()
-                );
+                return Err(RequestError::NotAnArea { name: both(world, other) }.into());
             }
             None => home,
         };
@@ -226,7 +224,7 @@ impl Engine {
             Entity::Area(id) => Ok(id),
             other => {
                 let world = self.world()?;
-                Err(RequestError::NotAnArea { name: in_both(world, world.name(other)) }.into())
+                Err(RequestError::NotAnArea { name: both(world, other) }.into())
             }
         }
     }

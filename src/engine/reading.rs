@@ -13,7 +13,7 @@ use crate::map::{Entity, World};
 use crate::semantics::{Claim, Faced, Relations, Way, claim_bounds, claim_holds, faced};
 use crate::units::{AreaId, Bilingual, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
 
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::lexicon::named;
 use super::{Error, RequestError, State};
 
@@ -64,7 +64,7 @@ impl State {
             (Some(last), false) => {
                 regions.push(last);
                 let both = |region: &Region| {
-                    let area = in_both(world, world.name(Entity::Area(region.area)));
+                    let area = both(world, Entity::Area(region.area));
                     let map = in_both(world, &world.maps[&region.map].name);
                     Bilingual::both(|lang| format!("{} ({})", area.say(lang), map.say(lang)))
                 };

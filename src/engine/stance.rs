@@ -13,7 +13,7 @@ use super::directive_words::{
     between_places, facing_place, facing_wall, facing_window, middle_place, side_of, side_place,
     spot_place, window_place,
 };
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::{Error, Method, RequestError, State};
 
 /// A point of the floor that has no name on the Map.
@@ -120,8 +120,7 @@ impl State {
     }
 
     fn not_a_place(&self, entity: Entity) -> Error {
-        let both = |world| in_both(world, world.name(entity));
-        let name = self.world().map_or("".into(), both);
+        let name = self.world().map_or("".into(), |world| both(world, entity));
         RequestError::NotAPlace { name }.into()
     }
 

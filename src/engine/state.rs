@@ -19,7 +19,7 @@ use crate::units::{
 };
 
 use super::changes::Changes;
-use super::error::in_both;
+use super::error::{both, in_both};
 use super::known::Known;
 use super::{Error, RequestError, Rules, Value};
 
@@ -385,7 +385,7 @@ impl State {
                 Err(RequestError::UnknownName { name: name.to_owned(), help: offer(&near) }.into())
             }
             ref several => {
-                let names = several.iter().map(|&e| in_both(world, world.name(e)));
+                let names = several.iter().map(|&e| both(world, e));
                 let candidates = Bilingual::list(&names.collect::<Vec<_>>());
                 Err(RequestError::AmbiguousName { name: name.to_owned(), candidates }.into())
             }

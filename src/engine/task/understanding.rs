@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::engine::error::in_both;
+use crate::engine::error::both;
 use crate::engine::located::{nowhere_on, spot_in_words};
 use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
@@ -261,7 +261,7 @@ impl State {
             for (thing, place) in said {
                 if !self.is_there(thing, place)? {
                     let world = self.world()?;
-                    let both = |entity| in_both(world, world.name(entity));
+                    let both = |entity| both(world, entity);
                     let (thing, place) = (both(thing), both(place));
                     return Err(RequestError::NotThere { thing, place }.into());
                 }

@@ -216,13 +216,14 @@ impl Memory {
             self.last.clone_from(&answer.compared);
         }
         // "Where do the doors lead? Which of them is wider?", "What do the books lie on? Where are they?"
-        let told = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied().collect();
-        match &answer.query {
-            Query::Leads(_) => self.last = told(),
-            query if is_of_whereabouts(query) && answer.things.len() < 2 && told().len() > 1 => {
-                self.last = told();
-            }
-            _ => {}
+        let told = answer.topic.iter().filter(|t| !answer.things.contains(t));
+        let told: Vec<Thing> = told.copied().collect();
+        let keeps = match &answer.query {
+            Query::Leads(_) => true,
+            query => is_of_whereabouts(query) && answer.things.len() < 2 && told.len() > 1,
+        };
+        if keeps {
+            self.last = told;
         }
         if self.last.len() > 1 {
             self.listed.clone_from(&self.last);
