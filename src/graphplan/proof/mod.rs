@@ -119,8 +119,8 @@ const CHOICES_A_CONFLICT: u64 = 100;
 /// Levels that the solver refutes at no price, one after the other, must not leave the search behind for good.
 const CHOICES_A_LEVEL: u64 = 128;
 
-/// What a proof by induction may spend, in variables set by the solver: so much for each level past level-off, and such
-/// a part of what the other ways spent. A choice of the search takes as long as setting so many.
+/// What a proof by induction may spend, in variables set by the solver: so much for each level past level-off, but no
+/// more than all else took, and such a part of what the other ways spent besides. A choice of the search takes as long as setting so many.
 const EFFORT_A_LEVEL: u64 = 1 << 14;
 const INDUCTION_SHARE: u64 = 4;
 const EFFORT_A_CHOICE: u64 = 4;
@@ -534,7 +534,8 @@ impl<'a> Extractor<'a> {
         let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
         let beyond = (graph.top() - leveled_off_at) as u64;
         let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
-        let share = EFFORT_A_LEVEL * beyond + effort / INDUCTION_SHARE;
+        let begins = (EFFORT_A_LEVEL * beyond).min(effort + graph.effort());
+        let share = begins + effort / INDUCTION_SHARE;
         let limits = self.limits;
         let induction =
             self.induction.get_or_insert_with(|| Induction::new(self.task, graph, limits));
