@@ -114,8 +114,8 @@ pub(crate) fn blocks(count: usize, seed: u64) -> Instance {
     instance(format!("blocks-{count}/{seed}"), domain, &objects("b", count, "object"), &init, &goal)
 }
 
-/// Rovers sample rocks and soil, take images and send them to a lander, one message at a time: who sends takes the
-/// lander's channel and gives it back.
+/// Rovers sample rocks and soil, take images and send them to a lander. Its channel and the rover are free throughout:
+/// the competition's rules take both and give them back in one action, and its planners read that so.
 pub(crate) fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types rover place store camera mode lander objective)
  (:predicates (at ?r - rover ?p - place) (lander-at ?l - lander ?p - place) (road ?r - rover ?a ?b - place) (visible ?a ?b - place)
@@ -136,13 +136,13 @@ pub(crate) fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> I
   :effect (and (image ?r ?o ?m) (not (calibrated ?c ?r))))
  (:action send-soil :parameters (?r - rover ?l - lander ?x ?a ?b - place)
   :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-soil ?r ?x) (visible ?a ?b) (available ?r) (channel ?l))
-  :effect (and (not (available ?r)) (not (channel ?l)) (channel ?l) (sent-soil ?x) (available ?r)))
+  :effect (sent-soil ?x))
  (:action send-rock :parameters (?r - rover ?l - lander ?x ?a ?b - place)
   :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-rock ?r ?x) (visible ?a ?b) (available ?r) (channel ?l))
-  :effect (and (not (available ?r)) (not (channel ?l)) (channel ?l) (sent-rock ?x) (available ?r)))
+  :effect (sent-rock ?x))
  (:action send-image :parameters (?r - rover ?l - lander ?o - objective ?m - mode ?a ?b - place)
   :precondition (and (at ?r ?a) (lander-at ?l ?b) (image ?r ?o ?m) (visible ?a ?b) (available ?r) (channel ?l))
-  :effect (and (not (available ?r)) (not (channel ?l)) (channel ?l) (sent-image ?o ?m) (available ?r))))";
+  :effect (sent-image ?o ?m)))";
     let mut random = Random::new(seed);
     let objectives = goals.max(2);
     let mut init = vec![format!("(lander-at l0 p{}) (channel l0)", random.below(places))];

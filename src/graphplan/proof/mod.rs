@@ -120,9 +120,12 @@ const CHOICES_A_CONFLICT: u64 = 100;
 const CHOICES_A_LEVEL: u64 = 128;
 
 /// What a proof by induction may spend, in variables set by the solver: so much for each level past level-off, but no
-/// more than all else took, and such a part of what the other ways spent besides. A choice of the search takes as long as setting so many.
+/// more than all else took, and such a part of what the other ways spent besides, a choice of the search for so many.
 const EFFORT_A_LEVEL: u64 = 1 << 14;
 const INDUCTION_SHARE: u64 = 4;
+const INDUCTION_A_CHOICE: u64 = 2;
+
+/// A choice of a long search takes as long as setting so many variables.
 const EFFORT_A_CHOICE: u64 = 4;
 
 /// So much is spent before states are looked at.
@@ -533,7 +536,7 @@ impl<'a> Extractor<'a> {
     fn induce(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
         let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
         let beyond = (graph.top() - leveled_off_at) as u64;
-        let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
+        let effort = self.search.choices() * INDUCTION_A_CHOICE + self.encoding.effort();
         let begins = (EFFORT_A_LEVEL * beyond).min(effort + graph.effort());
         let share = begins + effort / INDUCTION_SHARE;
         let limits = self.limits;
