@@ -119,9 +119,10 @@ const CHOICES_A_CONFLICT: u64 = 100;
 /// Levels that the solver refutes at no price, one after the other, must not leave the search behind for good.
 const CHOICES_A_LEVEL: u64 = 128;
 
-/// What a proof by induction may spend, in variables set by the solver: so much for each level past level-off, but no
-/// more than all else took, and such a part of what the other ways spent besides, a choice of the search for so many.
-const EFFORT_A_LEVEL: u64 = 1 << 14;
+/// What a proof by induction may spend, in variables set by the solver: so much by the square of the levels past
+/// level-off, but no more than all else took, and besides such a part of what the other ways spent, a choice of the
+/// search counted for so many.
+const EFFORT_A_LEVEL: u64 = 1 << 10;
 const INDUCTION_SHARE: u64 = 4;
 const INDUCTION_A_CHOICE: u64 = 2;
 
@@ -537,7 +538,7 @@ impl<'a> Extractor<'a> {
         let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
         let beyond = (graph.top() - leveled_off_at) as u64;
         let effort = self.search.choices() * INDUCTION_A_CHOICE + self.encoding.effort();
-        let begins = (EFFORT_A_LEVEL * beyond).min(effort + graph.effort());
+        let begins = (EFFORT_A_LEVEL * beyond * beyond).min(effort + graph.effort());
         let share = begins + effort / INDUCTION_SHARE;
         let limits = self.limits;
         let induction =
