@@ -299,16 +299,6 @@ impl Synonyms {
         let tails = (1..core.len()).map(|cut| &core[cut..]);
         tails.filter(|tail| list.is_head(tail)).find_map(|tail| found(tail, false))
     }
-
-    /// The first of several words that means something.
-    #[must_use]
-    pub fn find_any<'w>(
-        &self,
-        vocabulary: Vocabulary,
-        words: impl IntoIterator<Item = &'w str>,
-    ) -> Option<Found<'_>> {
-        words.into_iter().find_map(|word| self.find(vocabulary, word))
-    }
 }
 
 impl List {

@@ -6,10 +6,10 @@ use std::time::Duration;
 use super::evaluate::Evaluation;
 use super::growing::Version;
 use super::plan::{Plan, Request};
-use super::program::{Clause, Expr, Program};
+use super::program::{Clause, Expr};
 use super::relations::RelationId;
 use super::step::Step;
-use super::trace::{Join, RuleTrace, sorted};
+use super::trace::{Join, RuleTrace};
 use crate::units::{Bilingual, Language};
 
 impl Evaluation<'_> {
@@ -114,19 +114,4 @@ impl Evaluation<'_> {
 fn prefixed((russian, english): (&str, &str), what: &Bilingual) -> Bilingual {
     let said = |word, language| format!("{word} {}", what.say(language));
     Bilingual::new(said(russian, Language::Russian), said(english, Language::English))
-}
-
-impl Program {
-    /// As [`Self::evaluate_within`], and what each rule did, the longest first.
-    ///
-    /// # Errors
-    /// As [`Self::evaluate_within`].
-    pub fn evaluate_traced(
-        &self,
-        database: &super::Database,
-        limits: super::Limits,
-    ) -> Result<(super::Derived, Vec<RuleTrace>), super::EvaluateError> {
-        let (derived, traced) = self.run(database, limits, true)?;
-        Ok((derived, sorted(traced)))
-    }
 }

@@ -199,11 +199,6 @@ impl Problem {
         self.goal.push(Statement::outside(predicate, args, false, Standing::Fact));
     }
 
-    /// Asks for a fact not to hold in the end.
-    pub fn add_negative_goal(&mut self, predicate: &str, args: &[&str]) {
-        self.goal.push(Statement::outside(predicate, args, true, Standing::Fact));
-    }
-
     #[must_use]
     pub fn has_goal(&self) -> bool {
         !self.goal.is_empty()
@@ -211,18 +206,6 @@ impl Problem {
             || !self.compared.is_empty()
             || self.goal_is_empty
             || !self.preferences.is_empty()
-    }
-
-    /// The names of all objects that a statement mentions, each once, in order.
-    pub fn mentioned_objects(&self) -> impl Iterator<Item = &str> {
-        let mut seen = HashSet::new();
-        self.objects
-            .iter()
-            .map(|object| object.name.as_str())
-            .chain(
-                self.facts.iter().chain(&self.goal).flat_map(|s| s.args.iter().map(String::as_str)),
-            )
-            .filter(move |name| seen.insert(name_key(name)))
     }
 
     /// Holds the objects of some types to be those that came from outside or were declared: a text that
