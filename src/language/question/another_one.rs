@@ -129,7 +129,8 @@ impl Asker<'_> {
         if !OTHER.contains(only) {
             return None;
         }
-        let others = || self.others_of_last(memory);
+        // «Где первый? А второй?» of three counts on.
+        let others = || self.others_of_last(memory).filter(|noun| !ranks(only) || is_one(noun));
         let noun = match ["others", "остальные", "rest", "остальное", "другие"].contains(only)
         {
             true => self.rest_of_kind(memory).or_else(others)?,
@@ -191,6 +192,16 @@ impl Asker<'_> {
         let rest = self.knowledge(memory.language, memory).complement()?;
         Some(Noun { plural: rest.len() > 1, ..Noun::of(rest) })
     }
+}
+
+/// "The second", which of more than two counts them, and of two is the other one.
+fn ranks(word: &str) -> bool {
+    let said = vocabulary::longest(&[word.to_owned()]);
+    matches!(said, Some((_, Mark::Rank(_))))
+}
+
+fn is_one(noun: &Noun) -> bool {
+    noun.head.things.as_ref().is_some_and(|things| things.len() == 1)
 }
 
 /// Whether a word says of a thing only that it is somewhere: «стоят», "lying".

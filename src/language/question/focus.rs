@@ -70,16 +70,30 @@ impl Knowledge<'_> {
     }
 
     /// "Is there a medicine cabinet?": a thing that is called after another, where none of its kind is near such a one, may be
-    /// there under another name.
+    /// there under another name. So may "the book glass": a book is no place by which a glass is known.
     pub(super) fn unknown_compound(&self, query: &Query) -> Option<String> {
         let mut compound = None;
         query.clone().each_noun(&mut |noun| {
-            let modified = noun.restrictions.iter().flat_map(|r| &r.anchors).any(|a| a.modifies);
-            if modified && self.find(noun, true).is_ok_and(|found| found.is_empty()) {
+            let anchors = noun.restrictions.iter().flat_map(|r| &r.anchors);
+            let modifying: Vec<&Noun> = anchors.filter(|anchor| anchor.modifies).collect();
+            let found = || self.find(noun, true).unwrap_or_default();
+            let is_placed = modifying.iter().all(|anchor| self.is_place_of_things(anchor));
+            if !modifying.is_empty() && (!is_placed || found().is_empty()) {
                 compound.get_or_insert_with(|| without_article(&noun.text).to_owned());
             }
         });
         compound
+    }
+
+    /// Whether things may be told by where they are to such a one: not where it is only carried about itself.
+    fn is_place_of_things(&self, noun: &Noun) -> bool {
+        let has = |id, wanted| self.world.has_trait(id, wanted);
+        let carried = |t: &Thing| {
+            t.replica().is_some_and(|id| {
+                has(id, "portable") && !has(id, "container") && !has(id, "support")
+            })
+        };
+        !self.base(&noun.head).iter().any(carried)
     }
 
     /// What points in a query at a thing of a sort that the map lacks: "that shelf".
@@ -420,7 +434,7 @@ pub(super) fn is_one(noun: &Noun) -> bool {
         || noun.best.is_some())
 }
 
-fn without_article(said: &str) -> &str {
+pub(super) fn without_article(said: &str) -> &str {
     let article = |(first, rest): (&str, &str)| {
         matches!(&*first.to_lowercase(), "the" | "a" | "an").then_some(rest.len())
     };

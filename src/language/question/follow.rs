@@ -4,6 +4,7 @@ use super::another_place::{another_placed, near_another};
 use super::bare::{
     by_how_much, compared_otherwise, room_alone, where_alone, where_such, which_alone, which_of_all,
 };
+use super::focus::without_article;
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Denial;
@@ -13,6 +14,9 @@ use super::{
 };
 use crate::map::Entity;
 use crate::words::{Language, phrase_at, word_keys, word_ranges};
+
+/// What begins a question that goes on from the one before.
+const GOING_ON: [&str; 6] = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
 
 impl Asker<'_> {
     /// «На сколько?»: by how much what was told is more than the other, whichever was named first.
@@ -40,7 +44,6 @@ impl Asker<'_> {
             let and = Language::of(text).pick("а", "and");
             return self.continued(&format!("{and} {meant}"), memory);
         }
-        let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
         // «А на том, что в гостиной?» points.
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
@@ -107,7 +110,7 @@ impl Asker<'_> {
         // «Где лежат часы? А в гостиной есть?»: others of the kind, there.
         if let (Query::Where(of), Some(placed)) =
             (last, text.trim_end_matches(['?', ' ']).strip_suffix(" есть"))
-            && begins.iter().any(|b| key.starts_with(b))
+            && GOING_ON.iter().any(|b| key.starts_with(b))
             && let Some(place) = self.bare_place(placed, memory)
         {
             let things = of.head.things.clone().unwrap_or_default();
@@ -122,7 +125,7 @@ impl Asker<'_> {
         }
         // «Сколько телевизоров? А на кухне есть?»
         if let Some(placed) = text.trim_end_matches(['?', ' ']).strip_suffix(" есть")
-            && begins.iter().any(|b| key.starts_with(b))
+            && GOING_ON.iter().any(|b| key.starts_with(b))
             && let Some(query) = self.continued(placed, memory)
             && last
                 .sought()
@@ -163,7 +166,7 @@ impl Asker<'_> {
             return Some(query);
         }
         let of_those = self.asks_of_those(text);
-        if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
+        if !GOING_ON.iter().any(|b| key.starts_with(b)) && !of_those {
             return None;
         }
         // «А дверь открыта?» asks of itself, «А красная дверь?» as before.
@@ -374,6 +377,28 @@ impl Asker<'_> {
         self.continued(&format!("{and} {part}"), memory)
     }
 
+    /// "Where is the spoon? – There is no such thing. – And the fork?", "No, I mean the fork": the same is asked of that.
+    pub(super) fn of_another_word(&self, text: &str, memory: &Memory) -> Option<String> {
+        let (asked, unknown) = memory.unheard.as_ref()?;
+        let named = corrected(text).or_else(|| {
+            let keys = word_keys(text);
+            let begins = GOING_ON.iter().filter_map(|b| phrase_at(&keys, 0, b.trim_end()));
+            let begin = begins.max()?;
+            word_ranges(text).get(begin).map(|word| &text[word.start..])
+        })?;
+        let named = named.trim_end_matches(['?', '.', '!', ' ']);
+        let sentence = Sentence::new(named, &self.mind.lexicon);
+        let noun = self.fragment(&sentence, &Memory::default())?;
+        let is_named = !noun.head.kinds.is_empty() || !noun.head.named.is_empty();
+        let is_known = is_named && noun.restrictions.is_empty();
+        let at = asked.find(unknown.as_str()).filter(|_| is_known)?;
+        let named = match without_article(unknown) == unknown {
+            true => without_article(named),
+            false => named,
+        };
+        Some(format!("{}{named}{}", &asked[..at], &asked[at + unknown.len()..]))
+    }
+
     /// A description by itself: "the spoons in the kitchen".
     pub(super) fn fragment(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Noun> {
         let knowledge = self.knowledge(sentence.language, memory);
@@ -472,7 +497,8 @@ impl Asker<'_> {
         let mut noun = noun;
         let bare = noun.head.named.is_empty() && noun.head.kinds.is_empty();
         if bare {
-            noun.head.things = Some(pending.candidates.clone());
+            // "The second one": of those that were asked back.
+            noun.head = Head { things: Some(pending.candidates.clone()), ..Head::default() };
         }
         noun.plural = true;
         let found = knowledge.find(&noun, true).ok()?;

@@ -57,6 +57,8 @@ pub(super) enum Mark {
     See,
     /// «видел в последний раз», "last seen"
     LastSeen,
+    /// "last", of whatever was done.
+    Last,
     /// «раньше», "before"
     Before,
     /// «свободно», «свободное место», "free space"
@@ -183,6 +185,8 @@ pub(super) enum Mark {
     Hesitates,
     /// «короче», "you know": a particle of speech that says nothing, where commas part it from the rest.
     Particle,
+    /// "Who is right?", «Кто из нас прав?»: asked at the end of a line of two who say different things.
+    WhoIsRight,
     /// "I mean", «то есть»: the same, but within a clause what follows takes the place of what stands before.
     Corrects,
     Filler,

@@ -43,6 +43,8 @@ pub struct Memory {
     pub(super) counted: Vec<Noun>,
     /// What was asked last, for «А чайник?»
     pub(super) query: Option<Query>,
+    /// The last question, where it named what the map lacks, with the words for that.
+    pub(super) unheard: Option<(String, String)>,
     /// A question that waits for the person to say which thing was meant.
     pub(super) pending: Option<Pending>,
     /// A command that waits for the same.
@@ -187,6 +189,7 @@ impl Memory {
     /// Remembers what an answer was about.
     pub fn learn(&mut self, answer: &Answer) {
         self.pending = None;
+        self.unheard = None;
         self.told_place = None;
         self.is_outdated = false;
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {

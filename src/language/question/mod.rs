@@ -25,6 +25,7 @@ mod cut_off;
 mod datalog;
 mod denial;
 mod departed;
+mod disputed;
 mod discourse;
 mod doubt;
 mod doubts;
@@ -309,6 +310,9 @@ impl Asker<'_> {
         if let Some(answer) = self.told_where(text, language, memory) {
             return Ok(answer);
         }
+        if let Some(answer) = self.who_is_right(text, language, memory) {
+            return Ok(answer);
+        }
         // A fact in the notation of the rules is one, whatever its commas.
         let is_noted = self.noted(text).is_some();
         let parts = match is_noted {
@@ -378,6 +382,12 @@ impl Asker<'_> {
                 memory.told_place = place;
                 // «А полотенце? – Такого нет. – А мыло?»: the same is asked of each.
                 memory.query = memory.query.take().or(asked);
+                memory.unheard = match &doubt {
+                    Doubt::Unknown { reference, .. } if memory.query.is_none() => {
+                        Some((text.to_owned(), reference.clone()))
+                    }
+                    _ => None,
+                };
                 // «Это Часы-1 или Часы-2? – Где вторые?»
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
                     memory.listed.clone_from(candidates);
@@ -588,6 +598,10 @@ impl Asker<'_> {
     }
 
     fn answer(&self, text: &str, language: Language, memory: &Memory) -> Outcome {
+        if let Some(asked) = self.of_another_word(text, memory) {
+            let heard = Memory { unheard: None, ..memory.clone() };
+            return self.answer(&asked, language, &heard);
+        }
         let place = self.person_at(text, memory);
         let storey = self.with_storey(text, memory);
         self.answer_at(place.as_ref(), storey.as_deref().unwrap_or(text), language, memory)

@@ -299,10 +299,11 @@ impl Asker<'_> {
         let wider = || knowledge.list_with(&memory.listed)?.get(at).copied();
         let meant = memory.listed.get(at).copied().or_else(wider)?;
         let noun = Noun::of(vec![meant]);
-        Some(match memory.query.clone()? {
-            query @ (Query::Property { .. } | Query::Size { .. }) if !asks_where => {
-                query.of_another(&noun)
+        Some(match &memory.query {
+            Some(query @ (Query::Property { .. } | Query::Size { .. })) if !asks_where => {
+                query.clone().of_another(&noun)
             }
+            None if !asks_where => return None,
             _ => Query::Where(noun),
         })
     }

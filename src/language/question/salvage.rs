@@ -378,7 +378,7 @@ impl Asker<'_> {
 }
 
 /// Words between who says something and what is said.
-const JOINTS: [&str; 9] = ["that", "me", "us", "что", "будто", "мне", "нам", "if", "whether"];
+pub(super) const JOINTS: [&str; 9] = ["that", "me", "us", "что", "будто", "мне", "нам", "if", "whether"];
 
 /// A text without the words at its end that only join what is said: «Жена говорит, что».
 fn without_joint(text: &str) -> &str {
@@ -438,7 +438,7 @@ pub(super) fn is_reported(keys: &[String]) -> bool {
         "якобы",
     ];
     const STEMS: [&str; 8] =
-        ["говор", "сказал", "утвержда", "уверя", "считае", "думае", "твердит", "спорит"];
+        ["говор", "сказал", "утвержда", "уверя", "счита", "дума", "твердит", "спорит"];
     const KNOWING: [&str; 10] = [
         "know",
         "ask",

@@ -51,6 +51,7 @@ const MARKS: &[Mark] = &[
     Mark::List,
     Mark::See,
     Mark::LastSeen,
+    Mark::Last,
     Mark::Before,
     Mark::Free,
     Mark::Sit,
@@ -195,6 +196,7 @@ const MARKS: &[Mark] = &[
     Mark::Sound,
     Mark::Interjection,
     Mark::Limits,
+    Mark::WhoIsRight,
     Mark::Called,
     Mark::Hesitates,
     Mark::Particle,
@@ -317,6 +319,7 @@ fn is_bound(mark: Mark) -> bool {
             | Mark::Sound
             | Mark::Interjection
             | Mark::Limits
+            | Mark::WhoIsRight
     )
 }
 

@@ -7,7 +7,7 @@ use super::answer::Draft;
 use super::compared::Extreme;
 use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
-use super::query::{Noun, Passing, Query, Rel, Thing};
+use super::query::{Claim, Noun, Passing, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
 use crate::map::Entity;
 use crate::units::{AreaId, Lengths};
@@ -33,12 +33,15 @@ impl Knowledge<'_> {
                 // "Why can't you leave the kitchen?"
                 let leaves = matches!(query, Query::Find(_)) && answer.said == Said::Found;
                 if negated && leaves {
-                    return Ok(self.why_not_though_so(&answer.text, &[]));
+                    return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
+                }
+                if negated && is_otherwise(query, answer.said) {
+                    return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
                 }
                 if answer.facts.is_empty() {
                     let way = matches!(query, Query::CanReach { .. });
                     if negated && way && answer.said == Said::Yes {
-                        return Ok(self.why_not_though_so(&answer.text, &answer.topic));
+                        return Ok(self.why_not_though_so(&answer.text, &answer.topic, true));
                     }
                     let plain = || self.why_plain(&answer.text, &answer.topic);
                     return Ok(self.absent(query).unwrap_or_else(plain));
@@ -163,11 +166,16 @@ impl Knowledge<'_> {
         Some(Draft::plain(Said::Found, text).with(found))
     }
 
-    /// Of what rests on no relation – a way, the floor, a value that is not given – the answer itself is the reason.
-    fn why_plain(&self, said: &str, named: &[Thing]) -> Draft {
+    /// What an answer said, behind other words: a name keeps its letters.
+    fn within_a_sentence(&self, said: &str, named: &[Thing]) -> String {
         let text = without_verdict(said);
         let is_name = named.iter().any(|t| text.starts_with(&self.name(*t)));
-        let text = if is_name { text.to_owned() } else { lower_first(text) };
+        if is_name { text.to_owned() } else { lower_first(text) }
+    }
+
+    /// Of what rests on no relation – a way, the floor, a value that is not given – the answer itself is the reason.
+    fn why_plain(&self, said: &str, named: &[Thing]) -> Draft {
+        let text = self.within_a_sentence(said, named);
         let text = match self.is_russian() {
             true => format!("по карте так: {text}"),
             false => format!("by the map it is so: {text}"),
@@ -176,9 +184,10 @@ impl Knowledge<'_> {
     }
 
     /// "Why can't you reach the mug?", where a way leads to it: the arm is too short, or it is not so.
-    fn why_not_though_so(&self, said: &str, topic: &[Thing]) -> Draft {
+    fn why_not_though_so(&self, said: &str, topic: &[Thing], is_way: bool) -> Draft {
         let beyond = |thing: &Thing| Some((*thing, self.senses.beyond_arm(thing.replica()?)?));
-        let text = match (topic.iter().find_map(beyond), self.is_russian()) {
+        let beyond = topic.iter().filter(|_| is_way).find_map(beyond);
+        let text = match (beyond, self.is_russian()) {
             (Some((thing, beyond)), true) => format!(
                 "до {} не дотянуться: там, где робот встаёт ближе всего, руке не хватает {}",
                 self.form(thing, Case::Genitive),
@@ -189,9 +198,12 @@ impl Knowledge<'_> {
                 self.name(thing),
                 length(beyond, self.language)
             ),
-            (None, true) => format!("по карте это не так: {}", lower_first(without_verdict(said))),
-            (None, false) => {
-                format!("by the map it is not so: {}", lower_first(without_verdict(said)))
+            (None, russian) => {
+                let told = self.within_a_sentence(said, topic);
+                match russian {
+                    true => format!("по карте это не так: {told}"),
+                    false => format!("by the map it is not so: {told}"),
+                }
             }
         };
         Draft::plain(Said::Found, text)
@@ -557,10 +569,24 @@ impl Knowledge<'_> {
 }
 
 /// An answer without its "yes" or "no" and its full stop.
-fn without_verdict(said: &str) -> &str {
+pub(super) fn without_verdict(said: &str) -> &str {
     let text = said.trim_end_matches('.');
     let rest = ["Да, ", "Нет, ", "Yes, ", "No, "].iter().find_map(|head| text.strip_prefix(head));
     rest.unwrap_or(text)
+}
+
+/// Whether what somebody takes not to be so is so: "Why isn't the door open?", where it is.
+fn is_otherwise(query: &Query, said: Said) -> bool {
+    let Query::Holds { claims, .. } = query else { return false };
+    let denies = |claim: &Claim| match claim {
+        Claim::Value(filter) => filter.negated,
+        Claim::Related(place) => place.negated,
+        Claim::Kind(_) | Claim::Size(_) => false,
+    };
+    match claims.iter().any(denies) {
+        true => said == Said::No,
+        false => said == Said::Yes,
+    }
 }
 
 /// The preposition that tells a relation.

@@ -578,7 +578,7 @@ impl Knowledge<'_> {
     pub(super) fn same_size(&self, dimension: Dimension, of: &[Noun]) -> Result<Draft, Doubt> {
         let found = self.all_meant(of)?;
         if let ([only], [_]) = (of, &found[..]) {
-            return Err(Doubt::NoReferent { word: only.text.clone() });
+            return Err(self.one_of_several(only, &found));
         }
         let keyed: Option<Vec<(Thing, String)>> =
             found.iter().map(|t| Some((*t, self.size_in_words(dimension, *t)?))).collect();

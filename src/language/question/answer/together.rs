@@ -24,11 +24,19 @@ impl Knowledge<'_> {
         Ok(found)
     }
 
+    /// Of several that were called so there is one; of a pronoun it is not known what it means.
+    pub(super) fn one_of_several(&self, noun: &Noun, found: &[Thing]) -> Doubt {
+        match noun.head.kinds.is_empty() {
+            true => Doubt::NoReferent { word: noun.text.clone() },
+            false => Doubt::TooFew { found: found.to_vec() },
+        }
+    }
+
     /// «да, Тумбочка-1 и Тумбочка-2 находятся в Комнате-Y»
     pub(super) fn together(&self, of: &[Noun], rel: Rel, place: &Noun) -> Result<Draft, Doubt> {
         let found = self.all_meant(of)?;
         if let ([only], [_]) = (of, &found[..]) {
-            return Err(Doubt::NoReferent { word: only.text.clone() });
+            return Err(self.one_of_several(only, &found));
         }
         let of_kind = Noun { plural: true, indefinite: true, ..place.clone() };
         let places = self.find(&of_kind, true)?;

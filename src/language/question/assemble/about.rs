@@ -424,7 +424,9 @@ impl Frame<'_, '_> {
         if self.has(Mark::Moved) || asked_move {
             return noun().map(Query::Before);
         }
-        if self.has(Mark::When) || self.has(Mark::LastSeen) {
+        // "When was it last used?" asks for no sighting.
+        let timed = self.has(Mark::When) || self.has(Mark::Last);
+        if self.has(Mark::LastSeen) || self.has(Mark::See) && timed {
             return noun().map(Query::LastSeen);
         }
         if self.has(Mark::Before) && (self.has(Mark::Where) || self.asks()) {

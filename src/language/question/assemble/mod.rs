@@ -208,8 +208,10 @@ pub(super) fn fragment(
     };
     // «А дверь открыта?» says it of the door.
     let says = !frame.nouns.is_empty() && !frame.values.is_empty();
+    // «А сколько она стоит?» asks of itself.
     if items.is_empty()
         || says
+        || frame.property.is_some()
         || frame.nouns.len() > 1
         || !frame.marks.iter().all(|(mark, _)| small(mark))
     {

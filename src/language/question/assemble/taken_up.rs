@@ -155,7 +155,7 @@ pub(super) fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
             matches!(query, Q::Duration { .. } | Q::Passing { asks: Passing::Long, .. })
         }
         Mark::When => matches!(query, Q::LastSeen(_) | Q::Before(_)),
-        Mark::LastSeen => matches!(query, Q::LastSeen(_)),
+        Mark::LastSeen | Mark::Last => matches!(query, Q::LastSeen(_)),
         Mark::Before => matches!(query, Q::Before(_) | Q::LastSeen(_)),
         Mark::Where => {
             !polar
@@ -192,7 +192,12 @@ pub(super) fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::Describe => matches!(query, Q::Describe(_) | Q::Way { .. } | Q::Passing { .. }),
         Mark::See => matches!(
             query,
-            Q::WhatDoYouSee | Q::Sees(_) | Q::Find(_) | Q::Exists { .. } | Q::Count(_)
+            Q::WhatDoYouSee
+                | Q::Sees(_)
+                | Q::Find(_)
+                | Q::Exists { .. }
+                | Q::Count(_)
+                | Q::LastSeen(_)
         ),
         Mark::Or => {
             told.either

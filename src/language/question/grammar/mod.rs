@@ -530,10 +530,17 @@ impl<'t> Sentence<'t> {
         let next = &self.nouns[*n as usize];
         // «помещение Туалет», «этаж L2»: the name tells which.
         let asked = self.tokens.iter().rev().find(|t| t.to <= input.0[0].from);
-        let asked = matches!(
-            asked.map(|t| t.kind),
-            Some(Tok::Mark(Mark::Which | Mark::What | Mark::HowMany))
-        );
+        let asked = asked.map(|t| t.kind);
+        // "How many sofa pillows …", "Which sofa pillow …", but "Which shelf are books on?"
+        let is_singular = |found: &Found| found.readings.iter().any(|r| r.is_singular());
+        let compounds = is_singular(found)
+            && match asked {
+                Some(Tok::Mark(Mark::HowMany)) => !is_singular(next),
+                Some(Tok::Mark(Mark::Which | Mark::What)) => is_singular(next),
+                _ => true,
+            };
+        let asked =
+            matches!(asked, Some(Tok::Mark(Mark::Which | Mark::What | Mark::HowMany)));
         let names = found.is_general
             && found.named.is_empty()
             && !asked
@@ -596,10 +603,9 @@ impl<'t> Sentence<'t> {
             // "the desk lamp" is a lamp at the desk, not the desk; "are lamps devices" joins nothing.
             Language::English
                 if !found.is_area
-                    && !asked
+                    && compounds
                     && !found.kinds.is_empty()
-                    && !next.kinds.is_empty()
-                    && found.readings.iter().any(|r| r.is_singular()) =>
+                    && !next.kinds.is_empty() =>
             {
                 let words = input.0[0].from as usize..input.0[0].to as usize;
                 let owner = Noun { indefinite: true, modifies: true, ..noun_of(found, words) };
