@@ -323,6 +323,11 @@ impl Asker<'_> {
         {
             return answered;
         }
+        if !is_noted
+            && let (None, Some(answered)) = (&parts, self.asked_there(text, language, memory))
+        {
+            return answered;
+        }
         let outcome = parts.unwrap_or_else(|| self.answer(text, language, memory));
         if let Err(unanswered) = &outcome
             && matches!(
