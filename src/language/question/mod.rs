@@ -47,6 +47,7 @@ mod opening;
 mod orders;
 mod outlive;
 mod paraphrase;
+mod past;
 mod premise;
 mod pronouns;
 mod purposes;
@@ -645,6 +646,7 @@ impl Asker<'_> {
         if let Err(doubt) = self.widen(&mut query, text, memory) {
             return Err(Box::new((doubt, Some(query))));
         }
+        self.as_it_was(&mut query, text, memory);
         let knowledge = self.knowledge(language, memory);
         knowledge.focus(&mut query);
         // "Is there one in the office as well?", where nothing tells of what.
@@ -676,6 +678,11 @@ impl Asker<'_> {
             so: denial::truth(&Sentence::new(text, &self.mind.lexicon), &answer),
             ..answer
         });
+        if let Ok(answer) = &answer
+            && let Some(doubt) = self.is_otherwise_now(answer, text, memory)
+        {
+            return Err(Box::new((doubt, Some(query))));
+        }
         answer.map_err(|doubt| Box::new((doubt, Some(query))))
     }
 }
