@@ -65,6 +65,7 @@ mod news;
 mod observe;
 mod obstacles;
 mod opening;
+mod past;
 mod plan;
 mod position;
 mod query;

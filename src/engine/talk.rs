@@ -5,14 +5,14 @@ use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order, without_marks};
 use crate::language::names::english_name;
 use crate::language::question::{
-    Answer, Asker, Corrected, Fact, Memory, Mind, Misread, News, Noun, Past, Query, Resolved, Said,
-    Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
+    Answer, Asker, Corrected, Doubt, Fact, Memory, Mind, Misread, News, Noun, Past, Query,
+    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
 use crate::meaning;
 use crate::robot::{beyond_arm, starting_pose};
-use crate::semantics::{Relations, Subject, derive, robot_eye, things_in_view};
+use crate::semantics::{Relations, Subject, robot_eye, things_in_view};
 use crate::store::Seen;
 use crate::units::{InOrder as _, MapId, Pose, ReplicaId};
 
@@ -45,9 +45,11 @@ impl State {
         }
         let answered = self.asker(&senses)?.ask(question, memory);
         let answered = match answered {
+            // The grammar knows no tense.
             Err(unanswered)
-                if ["not_understood", "incomplete", "unknown"]
-                    .contains(&unanswered.doubt.kind()) =>
+                if !matches!(unanswered.doubt, Doubt::Past { .. })
+                    && ["not_understood", "incomplete", "unknown"]
+                        .contains(&unanswered.doubt.kind()) =>
             {
                 let answer = self.ask_by_grammar(question)?;
                 answer.inspect(|answer| memory.learn(answer)).ok_or(unanswered)
@@ -608,28 +610,6 @@ impl Senses for RobotSenses<'_> {
     }
 
     fn past(&self, thing: ReplicaId) -> Vec<Past> {
-        let Some(reader) = &self.engine.reader else { return Vec::new() };
-        let versions = reader.replica_history(thing).unwrap_or_default();
-        let mut past: Vec<Past> = Vec::new();
-        let now = self.world().and_then(|w| w.replicas.get(&thing));
-        for pair in versions.windows(2) {
-            let [before, after] = pair else { continue };
-            let at = |revision| reader.at(revision)?.world();
-            let Ok(Some(world)) = at(before.stamp.revision) else { continue };
-            let Some(old) = world.replicas.get(&thing) else { continue };
-            if now.is_some_and(|n| n.area == old.area && n.frame == old.frame) {
-                continue;
-            }
-            let Ok(relations) = derive(&world, &self.engine.rules.relations, world.domain.profile)
-            else {
-                continue;
-            };
-            past.push(Past {
-                until: after.stamp.at.in_words(),
-                area: relations.area_of(thing),
-                support: relations.support_of(thing),
-            });
-        }
-        past
+        self.engine.past(thing).unwrap_or_default()
     }
 }

@@ -89,7 +89,7 @@ pub use error::StoreError;
 pub use gc::Forgotten;
 pub use ids::{next_ids, numbered};
 pub use keep::Store;
-pub use observe::{Belief, Observation, Proposal, Seen};
+pub use observe::{Belief, Observation, Proposal, Seen, Stay};
 pub use queue::{Queue, QueuedTask};
 pub use reader::Reader;
 pub use robot::{FoundAt, RobotMemory, SeenObstacle};

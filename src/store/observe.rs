@@ -73,6 +73,14 @@ pub struct Proposal {
     pub believed: Belief,
 }
 
+/// A place where a replica was, or is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stay {
+    pub place: Seen,
+    /// When it was first known to be there no more.
+    pub until: Option<Timestamp>,
+}
+
 /// Two places nearer than this are one, in cm: what is thought of a thing is kept in step with what was seen of it, and
 /// would have to be gone through anew if this could change.
 const SAME_PLACE: f64 = 30.0;
@@ -295,8 +303,34 @@ impl Reader {
         Ok(Opinion { place, confidence, at: from, since: from, last_seen, missed })
     }
 
-    /// What is thought of a replica after all that was seen of it up to a moment: gone through from the beginning.
-    fn opinion(&self, replica: &Surveyed, now: Timestamp) -> Result<Opinion> {
+    /// Where a replica of the map was since it was written down so, the earliest first: where the map has it, and each place
+    /// to which it was then believed to have moved.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn stays(&self, replica: &Replica, now: Timestamp) -> Result<Vec<Stay>> {
+        let surveyed = self.survey(replica)?;
+        let mut opinion = self.opinion_without(&surveyed, now)?;
+        let mut stays = Vec::new();
+        let mut stay = Stay { place: opinion.place, until: None };
+        for observation in self.counted(&surveyed, now)? {
+            opinion.take(&surveyed, &observation);
+            if !is_same(&opinion.place, &stay.place) {
+                stay.until.get_or_insert(observation.at);
+                stays.push(stay);
+                stay = Stay { place: opinion.place, until: None };
+            } else if observation.seen.is_none() {
+                stay.until.get_or_insert(observation.at);
+            } else {
+                stay.until = None;
+            }
+        }
+        stays.push(stay);
+        Ok(stays)
+    }
+
+    /// What was seen of a replica up to a moment, and counts.
+    fn counted(&self, replica: &Surveyed, now: Timestamp) -> Result<Vec<Observation>> {
         let rejected = self.rejected(replica.id, now)?;
         let (revision, written) = replica.survey;
         // What happened in one millisecond is told apart by what was written first.
@@ -305,13 +339,22 @@ impl Reader {
             let is_new = at > written || (at == written && noted >= revision);
             at <= now && is_new && rejected.is_none_or(|last| (at, o.no) >= last)
         };
-        let mut opinion = self.opinion_without(replica, now)?;
+        let mut counted = Vec::new();
         for (_, version) in self.versions(Table::Observations, &Key::new().id(replica.id.0))? {
             let noted = version.stamp.revision;
             let record: t::Observations = super::reader::record(&version.row)?;
             if counts(&record, noted) {
-                opinion.take(replica, &observation(record));
+                counted.push(observation(record));
             }
+        }
+        Ok(counted)
+    }
+
+    /// What is thought of a replica after all that was seen of it up to a moment: gone through from the beginning.
+    fn opinion(&self, replica: &Surveyed, now: Timestamp) -> Result<Opinion> {
+        let mut opinion = self.opinion_without(replica, now)?;
+        for observation in self.counted(replica, now)? {
+            opinion.take(replica, &observation);
         }
         Ok(opinion)
     }

@@ -52,6 +52,10 @@ pub enum Doubt {
     Departed {
         things: Vec<Departed>,
     },
+    /// What was before these things were moved, of which only their own places are known.
+    Past {
+        moved: Vec<Thing>,
+    },
     /// «наверху», "downstairs", where there is no such storey.
     NoStorey {
         above: bool,
@@ -88,6 +92,7 @@ impl Doubt {
             | Self::TooFew { .. }
             | Self::TooMany { .. }
             | Self::Departed { .. }
+            | Self::Past { .. }
             | Self::NoStorey { .. } => "unknown",
         }
     }

@@ -108,6 +108,13 @@ impl Knowledge<'_> {
                 false => format!("I do not know what \"{}\" means here", tidy(word)),
             },
             Doubt::Departed { things } => outlive::departed_words(things, self.language),
+            Doubt::Past { moved } => match russian {
+                true => format!(
+                    "знаю только, как есть сейчас; с тех пор перемещено: {}",
+                    self.list(moved)
+                ),
+                false => format!("I know only how it is now; moved since: {}", self.list(moved)),
+            },
             Doubt::TooFew { found } => match russian {
                 true => format!("столько нет, есть только {}", self.list(found)),
                 false => format!("there are not so many, only {}", self.list(found)),

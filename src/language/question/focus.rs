@@ -245,6 +245,7 @@ impl Knowledge<'_> {
         });
         self.put_together(query);
         self.keep_room(query);
+        self.found_where(query);
         self.by_state(query);
         self.resume(query);
         self.most_of_their_kind(query);

@@ -479,6 +479,10 @@ impl Memory {
             self.exchanges.truncate(RECENT);
             return;
         }
+        // What was asked is understood, and still spoken of.
+        if matches!(doubt, Doubt::Past { .. }) {
+            return;
+        }
         // "And on the bed?" goes on from what was not understood, and not from the question before it.
         self.query = None;
         self.counted.clear();

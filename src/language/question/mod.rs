@@ -48,6 +48,7 @@ mod opening;
 mod orders;
 mod outlive;
 mod paraphrase;
+mod past;
 mod premise;
 mod pronouns;
 mod purposes;
@@ -295,6 +296,8 @@ impl Asker<'_> {
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
         let text = unaddressed(text);
+        // A hyphen between blanks stands for a dash.
+        let text = text.replace(" - ", " – ");
         let text = &*address::untagged(&text);
         if text.chars().any(char::is_alphabetic) {
             memory.language = Language::of(text);
@@ -324,6 +327,11 @@ impl Asker<'_> {
         }
         if !is_noted
             && let (None, Some(answered)) = (&parts, self.each_sentence(text, language, memory))
+        {
+            return answered;
+        }
+        if !is_noted
+            && let (None, Some(answered)) = (&parts, self.asked_there(text, language, memory))
         {
             return answered;
         }
@@ -654,6 +662,7 @@ impl Asker<'_> {
         if let Err(doubt) = self.widen(&mut query, text, memory) {
             return Err(Box::new((doubt, Some(query))));
         }
+        self.as_it_was(&mut query, text, memory);
         let knowledge = self.knowledge(language, memory);
         knowledge.focus(&mut query);
         // "Is there one in the office as well?", where nothing tells of what.
@@ -685,6 +694,11 @@ impl Asker<'_> {
             so: denial::truth(&Sentence::new(text, &self.mind.lexicon), &answer),
             ..answer
         });
+        if let Ok(answer) = &answer
+            && let Some(doubt) = self.is_otherwise_now(answer, text, memory)
+        {
+            return Err(Box::new((doubt, Some(query))));
+        }
         answer.map_err(|doubt| Box::new((doubt, Some(query))))
     }
 }

@@ -5,7 +5,11 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Extreme;
-use super::{Answer, Asker, Courtesy, Head, Memory, Noun, Query, Rel, Restriction, Said, Thing};
+use super::{
+    Answer, Asker, Courtesy, Head, Memory, Noun, Query, Rel, Restriction, Said, Thing, Unanswered,
+    opening, several,
+};
+use crate::command::has_verb;
 use crate::words::{Case, Language, is_first_person, word_keys, word_ranges};
 
 /// What may stand beside.
@@ -34,13 +38,76 @@ impl Asker<'_> {
     /// The place of «я на кухне», «сижу в гостиной», "if I'm on the sofa", "I'm off to the bathroom", where a part of a line
     /// says that and no more.
     pub(super) fn premise(&self, text: &str) -> Option<Noun> {
-        // "I'm in the kitchen and my legs hurt": what else is told narrows nothing.
-        let joint = [" and ", " и ", " but ", " а "].into_iter().find_map(|joint| text.find(joint));
-        let first = joint.map(|at| &text[..at]);
-        let rest = joint.map_or("", |at| &text[at..]);
-        let rest_tells = || !super::several::asks_in(rest);
-        self.stay(text)
-            .or_else(|| first.filter(|_| rest_tells()).and_then(|first| self.stay(first)))
+        // "I'm in the kitchen and my legs hurt": what else is told narrows nothing, unless it tells where something is.
+        let rest_tells =
+            |rest: &str| !several::asks_in(rest) && !has_verb(rest) && !self.tells_of_place(rest);
+        self.stay(text).or_else(|| {
+            let joints = word_ranges(text).into_iter().filter(|word| is_joint(&text[word.clone()]));
+            let mut clauses = joints.map(|joint| (&text[..joint.start], &text[joint.end..]));
+            let (first, rest) = clauses.next()?;
+            self.stay(first).filter(|_| rest_tells(rest))
+        })
+    }
+
+    /// The place that the first clause of a line tells, and what follows it.
+    fn stay_and_rest<'t>(&self, text: &'t str) -> Option<(Noun, &'t str)> {
+        const MOST: usize = 4;
+        let words = word_ranges(text);
+        let parted = |n: &usize| {
+            let between = &text[words[n - 1].end..words[*n].start];
+            between.contains([',', ';', '–', '—', ':']) || is_joint(&text[words[*n].clone()])
+        };
+        let clauses = (1..words.len()).filter(parted).take(MOST);
+        let mut clauses = clauses.map(|n| {
+            let from = n + usize::from(is_joint(&text[words[n].clone()]));
+            let rest = words.get(from).map_or("", |word| &text[word.start..]);
+            (&text[..words[n - 1].end], rest)
+        });
+        clauses.find_map(|(first, rest)| {
+            let tells = !opening::begins_question(&word_keys(first));
+            Some((self.stay(first).filter(|_| tells)?, rest)).filter(|(_, rest)| !rest.is_empty())
+        })
+    }
+
+    /// The answer to what follows where the person says to be: «Я на кухне, а телефон на диване остался, проверь». The place
+    /// is no part of what is asked; where the rest is not understood, nothing is.
+    pub(super) fn asked_there(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Result<Answer, Unanswered>> {
+        let (place, rest) = self.stay_and_rest(text)?;
+        let mut after = memory.clone();
+        self.hear_of_place(&place, &mut after);
+        let answered = self.ask(rest, &mut after);
+        if answered.is_err()
+            && let Some(Ok(answer)) = self.salvaged(text, language, memory)
+        {
+            memory.learn(&answer);
+            return Some(Ok(answer));
+        }
+        *memory = after;
+        Some(answered)
+    }
+
+    /// Whether a clause only tells how the person is, or how it is there: "my legs hurt", «тут темно».
+    fn only_complains(&self, text: &str) -> bool {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
+        let of_person = |item: &Item| match item {
+            Item::Noun(phrase) => phrase.person == Some(Mark::Me),
+            Item::Mark(mark) => *mark == Mark::Me,
+            _ => false,
+        };
+        let tells = |item: &Item| {
+            of_person(item)
+                || matches!(item, Item::Mark(Mark::And | Mark::Filler | Mark::Be | Mark::Not))
+                || matches!(item, Item::Unknown(_))
+        };
+        let begins = items.first().is_some_and(of_person) || says_here(text);
+        begins && items.iter().all(tells) && !several::asks_in(text) && !has_verb(text)
     }
 
     fn stay(&self, text: &str) -> Option<Noun> {
@@ -107,7 +174,12 @@ impl Asker<'_> {
         language: Language,
         memory: &mut Memory,
     ) -> Option<Answer> {
-        let place = self.premise(text).filter(|_| !text.contains('?'))?;
+        let beside = || {
+            let (place, rest) = self.stay_and_rest(text)?;
+            self.only_complains(rest).then_some(place)
+        };
+        let place = self.stay(text).or_else(beside);
+        let place = place.filter(|_| !text.contains('?'))?;
         let found = self.knowledge(language, memory).find(&place, true).ok()?;
         let [only] = found[..] else { return None };
         self.hear_of_place(&place, memory);
@@ -132,6 +204,10 @@ impl Asker<'_> {
         let head = Head { named: vec![place], ..Head::default() };
         (!items.iter().any(to_robot)).then(|| Noun { head, ..Noun::default() })
     }
+}
+
+fn is_joint(word: &str) -> bool {
+    matches!(word, "and" | "but" | "и" | "а" | "но")
 }
 
 /// Whether a question asks of where the person is.

@@ -55,7 +55,7 @@ pub trait Senses {
     fn held(&self) -> Vec<ReplicaId>;
     /// What was observed of a thing, the oldest first.
     fn sightings(&self, thing: ReplicaId) -> Vec<Sighting>;
-    /// Where the map had a thing before, the oldest first; the present place is not among them.
+    /// Where a thing was before, the oldest first; the present place is not among them.
     fn past(&self, thing: ReplicaId) -> Vec<Past>;
     /// What is not as the map has it, as far as the robot saw or did it.
     fn changed(&self) -> Vec<News>;
@@ -119,8 +119,10 @@ pub struct Sighting {
 /// A former place of a thing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Past {
-    /// When it left, as people write it.
-    pub until: String,
+    /// When it left, as people write it; none where nobody noted that.
+    pub until: Option<String>,
     pub area: Option<AreaId>,
     pub support: Option<ReplicaId>,
+    /// Whether it was in its support, and not on it.
+    pub inside: bool,
 }

@@ -381,7 +381,7 @@ impl Asker<'_> {
     }
 
     /// Whether what is told is where something is, or may be where the person is.
-    fn tells_of_place(&self, told: &str) -> bool {
+    pub(super) fn tells_of_place(&self, told: &str) -> bool {
         let plain = self.plain(told);
         let items = Sentence::new(&plain, &self.mind.lexicon).items();
         items.iter().any(|item| matches!(item, Item::Place { .. }))

@@ -104,6 +104,13 @@ impl Knowledge<'_> {
             return Some(place);
         }
         let latest = *self.memory.spoken.iter().find(|thing| !opens(thing))?;
+        // Of several that were named, "there" is where they all are, or nowhere.
+        let together = self.memory.exchanges.first().map_or(&[][..], Exchange::members);
+        if together.len() > 1 && together.contains(&latest) {
+            let places: BTreeSet<Option<Thing>> =
+                together.iter().map(|thing| self.place_of(*thing)).collect();
+            return places.first().copied().flatten().filter(|_| places.len() == 1);
+        }
         // «Где кружка и что ещё там лежит?»: where the cup is, not in it.
         let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
         let told = placed && self.memory.last.contains(&latest) || !bears(latest);

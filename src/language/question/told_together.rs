@@ -33,11 +33,15 @@ impl Elided {
 }
 
 impl Asker<'_> {
-    /// «Сколько этажей? – Первый и Второй. – Что на втором?»: a number without its noun, after storeys that were told.
+    /// «Сколько этажей? – Первый и Второй. – Что на втором?», «Сколько столов на первом этаже? А на втором?»: a number without
+    /// its noun, after storeys that were told or a storey that was asked of.
     pub(super) fn with_storey(&self, text: &str, memory: &Memory) -> Option<String> {
         let storey = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
         let told = |e: &Exchange| e.members().len() > 1 && e.members().iter().all(storey);
-        memory.exchanges.iter().find(|e| told(e))?;
+        let asked = || self.asked_of_storey(memory) && goes_on_alone(text);
+        if !memory.exchanges.iter().any(told) && !asked() {
+            return None;
+        }
         let (words, keys) = (word_ranges(text), word_keys(text));
         let at = (1..keys.len()).find(|&n| {
             let ranks = matches!(vocabulary::longest(&keys[n..]), Some((1, Mark::Rank(_))));
@@ -49,6 +53,28 @@ impl Asker<'_> {
         let noun = Language::of(text).pick("этаже", "floor");
         Some(format!("{} {noun}{}", &text[..words[at].end], &text[end..]))
     }
+
+    /// Whether the last question asked of what is on a storey, and told no several things that may be counted themselves.
+    fn asked_of_storey(&self, memory: &Memory) -> bool {
+        let knowledge = self.knowledge(memory.language, memory);
+        let bears = |thing: &Thing| knowledge.may_be_anchor(Rel::On, *thing);
+        if memory.last.len() > 1 && memory.last.iter().any(bears) {
+            return false;
+        }
+        let Some(sought) = memory.query.as_ref().and_then(Query::sought) else { return false };
+        let is_storey = |anchor: &Noun| {
+            let found = knowledge.find(anchor, true).unwrap_or_default();
+            matches!(found[..], [Thing::Entity(Entity::Map(_))])
+        };
+        sought.restrictions.iter().flat_map(|place| &place.anchors).any(is_storey)
+    }
+}
+
+/// «А на втором?», "And on the second?": a place and no more.
+fn goes_on_alone(text: &str) -> bool {
+    let keys = word_keys(text);
+    let first = keys.first().is_some_and(|key| ["а", "и", "and"].contains(&key.as_str()));
+    first && keys.get(1).is_some_and(|key| key == "на" || key == "on")
 }
 
 impl Knowledge<'_> {

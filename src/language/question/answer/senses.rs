@@ -87,13 +87,17 @@ impl Knowledge<'_> {
         let mut parts = Vec::new();
         if let Some(support) = last.support {
             let support = Thing::Entity(Entity::Replica(support));
-            parts.push(self.place(Rel::On, &[support]));
+            let rel = if last.inside { Rel::In } else { Rel::On };
+            parts.push(self.place(rel, &[support]));
         }
         if let Some(area) = last.area {
             parts.push(self.place(Rel::In, &[Thing::Entity(Entity::Area(area))]));
         }
         let place = parts.join(" ");
-        let until = &last.until;
+        let until = match &last.until {
+            Some(until) => self.language.pick(format!("до {until}"), format!("until {until}")),
+            None => self.pick("до этого", "before that").to_owned(),
+        };
         let (gender, number) = self.gender(thing);
         let text = match self.is_russian() {
             true => {
@@ -103,9 +107,9 @@ impl Knowledge<'_> {
                     (_, crate::Gender::Neuter) => "находилось",
                     _ => "находился",
                 };
-                format!("до {until} {name} {verb} {place}")
+                format!("{until} {name} {verb} {place}")
             }
-            false => format!("until {until} {name} was {place}"),
+            false => format!("{until} {name} was {place}"),
         };
         Ok(Draft::new(Said::Found, text).with(vec![thing]))
     }
