@@ -577,16 +577,9 @@ pub(super) fn without_verdict(said: &str) -> &str {
 
 /// Whether what somebody takes not to be so is so: "Why isn't the door open?", where it is.
 fn is_otherwise(query: &Query, said: Said) -> bool {
-    let Query::Holds { claims, .. } = query else { return false };
-    let denies = |claim: &Claim| match claim {
-        Claim::Value(filter) => filter.negated,
-        Claim::Related(place) => place.negated,
-        Claim::Kind(_) | Claim::Size(_) => false,
-    };
-    match claims.iter().any(denies) {
-        true => said == Said::No,
-        false => said == Said::Yes,
-    }
+    // A value that is denied is so where it is not there.
+    let denies = |claim: &Claim| matches!(claim, Claim::Value(filter) if filter.negated);
+    matches!(query, Query::Holds { claims, .. } if said == Said::Yes && !claims.iter().any(denies))
 }
 
 /// The preposition that tells a relation.
