@@ -22,6 +22,7 @@ mod counted_before;
 mod datalog_files;
 mod denials;
 mod dialogue;
+mod disputed;
 mod doors;
 mod doubts;
 mod drawings;

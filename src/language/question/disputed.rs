@@ -31,7 +31,11 @@ impl Asker<'_> {
                 format!("{both}: {}; {}.", told(&first), told(&second))
             }
             (Said::Yes, _) => {
-                format!("{}: {}.", language.pick("Верно первое", "The first is right"), told(&first))
+                format!(
+                    "{}: {}.",
+                    language.pick("Верно первое", "The first is right"),
+                    told(&first)
+                )
             }
             (_, Said::Yes) => {
                 let right = language.pick("Верно второе", "The second is right");
@@ -59,8 +63,7 @@ impl Asker<'_> {
             let answer = self.answer(asked, language, memory).ok()?;
             matches!(answer.said, Said::Yes | Said::No).then_some(answer)
         };
-        let answer =
-            judged(&format!("{claim}?")).or_else(|| judged(&format!("{and} {claim}?")))?;
+        let answer = judged(&format!("{claim}?")).or_else(|| judged(&format!("{and} {claim}?")))?;
         memory.learn(&answer);
         Some(answer)
     }
@@ -69,7 +72,8 @@ impl Asker<'_> {
 /// The two claims of a line that ends by asking who is right.
 fn disputed(text: &str) -> Option<[&str; 2]> {
     let (words, keys) = (word_ranges(text), word_keys(text));
-    let asks = |n: &usize| vocabulary::taken_by(Mark::WhoIsRight, &keys[*n..]) == Some(keys.len() - n);
+    let asks =
+        |n: &usize| vocabulary::taken_by(Mark::WhoIsRight, &keys[*n..]) == Some(keys.len() - n);
     let end = (1..keys.len()).find(asks)?;
     let begins = |n: &usize| is_reported(&keys[..*n]) && !JOINTS.contains(&keys[*n].as_str());
     let [first, second] = (1..end).filter(begins).collect::<Vec<_>>()[..] else { return None };

@@ -378,7 +378,8 @@ impl Asker<'_> {
 }
 
 /// Words between who says something and what is said.
-pub(super) const JOINTS: [&str; 9] = ["that", "me", "us", "что", "будто", "мне", "нам", "if", "whether"];
+pub(super) const JOINTS: [&str; 9] =
+    ["that", "me", "us", "что", "будто", "мне", "нам", "if", "whether"];
 
 /// A text without the words at its end that only join what is said: «Жена говорит, что».
 fn without_joint(text: &str) -> &str {

@@ -8,7 +8,7 @@ use super::compared::Extreme;
 use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
 use super::query::{Claim, Noun, Passing, Query, Rel, Thing};
-use super::{Doubt, Fact, Said};
+use super::{Answer, Doubt, Fact, Said};
 use crate::map::Entity;
 use crate::units::{AreaId, Lengths};
 use crate::words::length;
@@ -35,7 +35,7 @@ impl Knowledge<'_> {
                 if negated && leaves {
                     return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
                 }
-                if negated && is_otherwise(query, answer.said) {
+                if negated && is_otherwise(query, &answer) {
                     return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
                 }
                 if answer.facts.is_empty() {
@@ -576,17 +576,18 @@ pub(super) fn without_verdict(said: &str) -> &str {
 }
 
 /// Whether what somebody takes not to be so is so: "Why isn't the door open?", where it is.
-fn is_otherwise(query: &Query, said: Said) -> bool {
+fn is_otherwise(query: &Query, answer: &Answer) -> bool {
     let Query::Holds { claims, .. } = query else { return false };
+    // A claim that is denied is so where the thing is otherwise.
     let denies = |claim: &Claim| match claim {
         Claim::Value(filter) => filter.negated,
         Claim::Related(place) => place.negated,
         Claim::Kind(_) | Claim::Size(_) => false,
     };
-    match claims.iter().any(denies) {
-        true => said == Said::No,
-        false => said == Said::Yes,
-    }
+    answer.said == Said::Yes
+        && !claims.iter().any(denies)
+        && !answer.facts.is_empty()
+        && answer.facts.iter().all(|fact| fact.holds)
 }
 
 /// The preposition that tells a relation.

@@ -539,8 +539,7 @@ impl<'t> Sentence<'t> {
                 Some(Tok::Mark(Mark::Which | Mark::What)) => is_singular(next),
                 _ => true,
             };
-        let asked =
-            matches!(asked, Some(Tok::Mark(Mark::Which | Mark::What | Mark::HowMany)));
+        let asked = matches!(asked, Some(Tok::Mark(Mark::Which | Mark::What | Mark::HowMany)));
         let names = found.is_general
             && found.named.is_empty()
             && !asked
