@@ -260,4 +260,10 @@ fn what_is_left_unsaid_makes_no_other_question() {
     assert!(found.contains("Chair"), "{found}");
     let place = answer(&engine, "Where is it?", &mut memory).expect("they have a place");
     assert!(place.starts_with("Chair"), "{place}");
+    // Where there is none, where the others are.
+    let mut memory = Memory::default();
+    let none = answer(&engine, "Is there a phone in the kitchen?", &mut memory).unwrap();
+    assert!(none.starts_with("No"), "{none}");
+    let place = answer(&engine, "Where is it?", &mut memory).expect("they have a place");
+    assert!(place.contains("Phone") && !place.contains("one gets to"), "{place}");
 }
