@@ -419,7 +419,7 @@ fn what_is_put_into_a_thing_is_inside_of_it() {
     let mut world = rb2();
     let engine = Engine::in_memory(world.clone(), None).unwrap();
     for (command, why) in [
-        ("Положи чашку-1 в Обеденный стол", "внутри нет места"),
+        ("Положи чашку-1 в Обеденный стол", "места внутри карта не знает"),
         ("Положи чашку-1 в Холодильник-1", "дверцы закрыты"),
     ] {
         let refused = engine.perform(command, &mut |_| {}).unwrap_err().to_string();

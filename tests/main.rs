@@ -7,6 +7,7 @@ mod architecture;
 mod asked_back;
 mod assembly;
 mod beside_the_order;
+mod beside_the_question;
 mod between_rooms;
 mod bounded;
 mod broken_scenarios;

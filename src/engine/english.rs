@@ -74,7 +74,7 @@ impl InEnglish for RequestError {
             Self::NoLift => "there is no lift on this floor".to_owned(),
             Self::NotPortable { name } => format!("the robot does not carry {}", en(name)),
             Self::NotHollow { name } => {
-                format!("nothing can be put into {}: it has no inside", en(name))
+                format!("nothing can be put into {}: the map knows of no room in it", en(name))
             }
             Self::Shut { name } => {
                 format!("{} is shut, and the robot does not open doors of furniture", en(name))

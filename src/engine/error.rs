@@ -323,8 +323,8 @@ pub enum RequestError {
     )]
     NotPortable { name: Bilingual },
 
-    /// Something that has no inside.
-    #[error("в «{name}» ничего не положить: внутри нет места")]
+    /// Something of which the map knows no inside: a table, or a bowl that it draws as a solid block.
+    #[error("в «{name}» ничего не положить: места внутри карта не знает")]
     #[diagnostic(code(engine::not_hollow), help("скажите, на что положить"))]
     NotHollow { name: Bilingual },
 

@@ -268,17 +268,22 @@ impl Knowledge<'_> {
         }
     }
 
-    /// "Is there any fruit in the kitchen? Where is it?": what was found there, of which there is more than one; where the
-    /// kitchen is was not wondered.
+    /// "Is there any fruit in the kitchen? Where is it?": what was found there, of which there is more than one, or what there
+    /// is of it elsewhere; where the kitchen is was not wondered.
     pub(super) fn found_where(&self, query: &mut Query) {
         let (Query::Where(noun) | Query::RoomOf(noun)) = query else { return };
         let words = word_keys(&noun.text);
         let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { return };
         let Some([place]) = noun.head.things.as_deref() else { return };
-        let found = &self.memory.last;
-        let sought = matches!(self.memory.query, Some(Query::Exists { .. })) && found.len() > 1;
-        if sought && !found.contains(place) && found.iter().all(|t| self.agrees(pronoun, *t)) {
-            noun.head.things = Some(found.clone());
+        if !matches!(self.memory.query, Some(Query::Exists { .. })) {
+            return;
+        }
+        let last = &self.memory.last;
+        let elsewhere = self.sought_in_vain(Pronoun::They).unwrap_or_default();
+        let found = if last.is_empty() { elsewhere } else { last.clone() };
+        let are_meant = found.len() > 1 && !found.contains(place);
+        if are_meant && found.iter().all(|t| self.agrees(pronoun, *t)) {
+            noun.head.things = Some(found);
         }
     }
 

@@ -5,7 +5,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::told_aside::{Named, is_polite, only_begs, tells};
+use super::told_aside::{Named, is_polite, is_wish, only_begs, tells};
 use super::{
     Asker, Doubt, Memory, Noun, Outcome, Query, Said, opening, premise, several, vocabulary,
 };
@@ -50,7 +50,8 @@ impl Asker<'_> {
         let marked = |n: usize| {
             let part = &text[parts[n].0..parts[n].1];
             let keys = word_keys(part);
-            part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys)
+            let wishes = is_wish(&keys) && !several::asks_outright(part);
+            part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes
         };
         let any_marked = (0..parts.len()).any(marked);
         let mut doubted = None;
@@ -369,8 +370,8 @@ impl Asker<'_> {
             small(item)
                 || nobody && *item == Item::Mark(Mark::Who)
                 || says && matches!(item, Item::Noun(phrase) if phrase.pronoun.is_some())
-                // "I was told that …", "I have heard that …"
-                || says && matches!(item, Item::Mark(Mark::Be | Mark::Have | Mark::See))
+                // "I was told that …", "I have heard that …", "I could swear that …"
+                || says && matches!(item, Item::Mark(Mark::Be | Mark::Have | Mark::See | Mark::Can))
         };
         let governs = matches!(items.last(), Some(Item::Link(_)));
         governs || !items.iter().all(|item| small(item) || matches!(item, Item::Link(_)))

@@ -94,7 +94,7 @@ impl Asker<'_> {
             return None;
         }
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»
-        let wishes = keys.iter().any(|key| key == "бы" || key == "б");
+        let wishes = is_wish(&keys);
         let begs = only_begs(&keys);
         let seeks = several::seeks(text);
         let tells = tells_there_is(text, &keys) || is_own_clause(&keys) || seeks;
@@ -264,6 +264,12 @@ fn is_own_clause(keys: &[String]) -> bool {
 /// «не подскажешь?», "do you know?": a part that asks for nothing of its own.
 pub(super) fn only_begs(keys: &[String]) -> bool {
     keys.len() < 5 && keys.iter().any(|key| tells(key))
+}
+
+/// «Присесть бы», but «хотя бы три»
+pub(super) fn is_wish(keys: &[String]) -> bool {
+    let least = |at: usize| at > 0 && keys[at - 1] == "хотя";
+    (0..keys.len()).any(|at| (keys[at] == "бы" || keys[at] == "б") && !least(at))
 }
 
 /// Whether a word is one of telling or knowing, by which a question is led in: "could you maybe tell me …".

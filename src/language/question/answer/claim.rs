@@ -133,7 +133,13 @@ impl Knowledge<'_> {
         // «Комод в ванной?» where there are several: whether one of them is.
         let places = claims.iter().all(|c| matches!(c, Claim::Related(r) if !r.negated));
         let bare = subject.head.named.is_empty() && subject.head.things.is_none();
+        // «Лампа на тумбочке включена?» of two bedside tables: neither is the lamp.
+        let kind = self.base(&subject.head);
+        let are_own = |all: &[Thing]| all.iter().all(|thing| kind.contains(thing));
         let mut found = match self.subject(subject) {
+            Err(Doubt::Ambiguous { candidates, reference }) if !are_own(&candidates) => {
+                return Err(Doubt::Ambiguous { candidates, reference });
+            }
             Err(Doubt::Ambiguous { candidates, .. })
                 if bare && places && !negated && self.is_any(subject, &candidates, claims)? =>
             {

@@ -344,6 +344,23 @@ impl Frame<'_, '_> {
                     self.relate(&mut noun, other, denied);
                 }
             }
+            // "What does the kitchen have?"
+            let does = self.sentence.keys.iter().any(|key| key == "does");
+            let owns = self.has(Mark::What)
+                && self.has(Mark::Have)
+                && !self.has(Mark::Which)
+                && others.is_empty()
+                && (does || !self.follows_what_directly(asked.at))
+                && !self.you
+                && !noun.plural
+                && (!noun.indefinite || self.is_area(&noun));
+            if owns {
+                let had = Head { anything: true, ..Head::default() };
+                let place = Restriction { rel: Rel::In, anchors: vec![noun], negated: false };
+                let head = Noun { head: had, plural: true, ..Noun::default() };
+                let had = Noun { restrictions: vec![place], ..head };
+                return self.spots.is_empty().then_some(Query::Find(had));
+            }
             let described = self.has(Mark::What)
                 && !self.has(Mark::Which)
                 && !best

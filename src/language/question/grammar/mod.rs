@@ -381,6 +381,13 @@ impl<'t> Sentence<'t> {
 
     fn described<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
         let (rest, parts) = many0(|i| self.modifier(i)).parse(input)?;
+        let before = input.0.len() - rest.0.len();
+        // «Лампа горит, холодильник закрыт»: what stands before a comma tells nothing of the noun behind it.
+        if let (Some(Modifier::Value(..)), Some(noun)) = (parts.last(), rest.0.first())
+            && self.comma_between(input.0[before - 1].to as usize, noun.from as usize)
+        {
+            return fail(input);
+        }
         let (rest, head, owner) = self.head(rest)?;
         let taken = input.0.len() - rest.0.len();
         let words = input.0[0].from as usize..input.0[taken - 1].to as usize;

@@ -40,6 +40,7 @@ impl<'t> Sentence<'t> {
         sentence.drop_idle_but();
         sentence.fill_elided();
         sentence.drop_asking_particle();
+        sentence.fill_unsaid();
         sentence.drop_stranded();
         sentence.tell_heights();
         for token in &sentence.tokens {
@@ -286,6 +287,31 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// "Got a pen or a pencil around?": who is asked to have something is not named, nor around what it may be.
+    fn fill_unsaid(&mut self) {
+        let said = |key: &str, t: &Token| t.to - t.from == 1 && self.keys[t.from as usize] == key;
+        let small = |t: &Token| t.kind == Tok::Mark(Mark::Filler);
+        let first = self.tokens.iter().position(|t| !small(t)).filter(|&first| {
+            self.tokens[first].kind == Tok::Mark(Mark::Have) && said("got", &self.tokens[first])
+        });
+        let idle = self.tokens.last().is_some_and(|t| {
+            said("around", t) && self.tokens.len() > 1 && matches!(t.kind, Tok::Mark(Mark::Link(_)))
+        });
+        // "What has the kitchen got?"
+        let has = |t: &Token| t.kind == Tok::Mark(Mark::Have);
+        let twice = self.tokens.iter().filter(|t| has(t)).count() > 1
+            && self.tokens.last().is_some_and(|t| has(t) && said("got", t));
+        if twice {
+            self.tokens.pop();
+        }
+        if let Some(first) = first {
+            self.tokens[first].kind = Tok::Mark(Mark::Exists);
+        }
+        if idle && self.tokens.iter().any(|t| t.kind == Tok::Mark(Mark::Exists)) {
+            self.tokens.pop();
+        }
+    }
+
     /// "something to cut an apple with": a preposition of an activity whose noun is what is asked for.
     fn drop_stranded(&mut self) {
         let activity = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Activity(_)));
@@ -350,7 +376,8 @@ impl<'t> Sentence<'t> {
         let used = matches!(before, Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown)))
             || self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(Mark::Activity(_))));
         let joint = matches!(next, Some("or" | "and"));
-        let ends = !used && (joint || self.ends_in_small_words(at + 1));
+        let clause_ends = self.comma_between(at + 1, at + 1);
+        let ends = !used && (joint || clause_ends || self.ends_in_small_words(at + 1));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
         let is_noun = |t: &&Token| matches!(t.kind, Tok::Noun(_) | Tok::Mark(Mark::Pronoun(_)));
         let nouns = self.tokens.iter().filter(is_noun).count();
