@@ -81,6 +81,7 @@ mod planning_mutants;
 mod planning_properties;
 mod planning_time;
 mod position_reports;
+mod put_back;
 mod put_into;
 mod queue;
 mod referents;

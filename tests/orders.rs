@@ -392,8 +392,8 @@ fn of_two_things_that_are_named_none_is_passed_over() {
 fn a_table_is_cleared_and_a_cup_is_put_away() {
     let engine = Engine::in_memory(lab(), None).unwrap();
     for (order, wanted) in [
-        ("Clear the desk", "Clear(Replica"),
-        ("Clear up the lab", "Clear(Area"),
+        ("Clear the desk", "Clear { from: Replica"),
+        ("Clear up the lab", "Clear { from: Area"),
         ("Clear away Battery 1", "PutAway("),
     ] {
         let said = format!("{:?}", engine.understand(order).unwrap());

@@ -109,7 +109,15 @@ impl InEnglish for RequestError {
             ),
             Self::KeptThere { things, name } => {
                 let things: Vec<&str> = things.iter().map(en).collect();
-                format!("all that lies on {} is kept there: {}", en(name), things.join(", "))
+                let (name, things) = (en(name), things.join(", "));
+                format!("all that lies on {name} is kept there: {things}; where is it to be put?")
+            }
+            Self::OneHand { things } => {
+                let things: Vec<&str> = things.iter().map(en).collect();
+                let things = things.join(", ");
+                format!(
+                    "I have one hand and cannot hold all of these: {things}; where are they to be put?"
+                )
             }
             Self::AtHome { thing, home } => {
                 format!("{} lies where it is kept: {}", en(thing), en(home))
@@ -218,7 +226,9 @@ impl InEnglish for RequestError {
             Self::NotCleaned { .. } => {
                 "rooms are tidied, and what things lie on: “Tidy up the table”"
             }
-            Self::KeptThere { .. } | Self::AtHome { .. } => "say where to put it",
+            Self::KeptThere { .. } | Self::AtHome { .. } | Self::OneHand { .. } => {
+                "say where to put it"
+            }
             Self::NotADevice { .. } => "a device is what has a type with the trait device",
             Self::Homeless { .. } => {
                 "say where to put it, or give the thing the property ХРАНИТСЯ_НА"

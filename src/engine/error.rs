@@ -395,7 +395,7 @@ pub enum RequestError {
     NotCleaned { name: Bilingual },
 
     /// A thing is to be cleared of what is kept on it.
-    #[error("на «{name}» лежит только то, что там и хранится: «{}»", russian_names(things).join("», «"))]
+    #[error("на «{name}» лежит только то, что там и хранится: «{}»; куда это положить?", russian_names(things).join("», «"))]
     #[diagnostic(code(engine::kept_there), help("скажите, куда это положить"))]
     KeptThere { things: Vec<Bilingual>, name: Bilingual },
 
@@ -403,6 +403,11 @@ pub enum RequestError {
     #[error("«{thing}» лежит там, где и хранится: «{home}»")]
     #[diagnostic(code(engine::at_home), help("скажите, куда это положить"))]
     AtHome { thing: Bilingual, home: Bilingual },
+
+    /// Several things that are to be taken, and put nowhere.
+    #[error("рука у робота одна, а взять велено несколько вещей: «{}»; куда их положить?", russian_names(things).join("», «"))]
+    #[diagnostic(code(engine::one_hand), help("скажите, куда положить"))]
+    OneHand { things: Vec<Bilingual> },
 
     /// Something that is to be switched and has no switch.
     #[error("«{name}» нельзя ни включить, ни выключить")]
@@ -504,6 +509,20 @@ pub enum RequestError {
 }
 
 impl Error {
+    /// Whether all that an order lacks is whither something goes.
+    pub(super) fn asks_whither(&self) -> bool {
+        match self {
+            Self::Misheard(misheard) => misheard.asks_whither(),
+            Self::Request(request) => matches!(
+                request,
+                RequestError::KeptThere { .. }
+                    | RequestError::AtHome { .. }
+                    | RequestError::OneHand { .. }
+            ),
+            _ => false,
+        }
+    }
+
     /// The fault as English tells it, with its places and remedies.
     #[must_use]
     pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {

@@ -26,6 +26,7 @@ impl State {
         relations: &Relations,
         belief: &mut Belief,
     ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        self.one_at_the_end(commands)?;
         let mut goals: Vec<Vec<GoalFact>> = Vec::new();
         let mut joined: Vec<&Command<Entity>> = Vec::new();
         for (n, command) in commands.iter().enumerate() {
@@ -77,6 +78,25 @@ impl State {
         }
         goals.retain(|goal| !goal.is_empty());
         Ok(goals)
+    }
+
+    /// Of what is taken and put nowhere, the one hand holds one thing.
+    fn one_at_the_end(&self, commands: &[Command<Entity>]) -> Result<(), Error> {
+        let is_left = |n: usize| match &commands[n] {
+            Command::Take { what } => !commands[n + 1..].iter().any(|later| match later {
+                Command::Bring { what: brought, .. } => brought.id == what.id,
+                later => later.places(&what.id),
+            }),
+            _ => false,
+        };
+        let held = (0..commands.len()).filter(|n| is_left(*n));
+        let held: BTreeSet<Entity> = held.filter_map(|n| thing_of(&commands[n])).collect();
+        if held.len() < 2 {
+            return Ok(());
+        }
+        let world = self.world()?;
+        let things = held.into_iter().map(|thing| both(world, thing)).collect();
+        Err(RequestError::OneHand { things }.into())
     }
 
     fn goals_of_one(
@@ -209,7 +229,7 @@ impl State {
             Command::Clean(Some(thing @ Entity::Replica(_))) => {
                 return Err(RequestError::NotCleaned { name: both(*thing) }.into());
             }
-            Command::Clear(thing) => self.cleared(*thing, relations, belief)?,
+            Command::Clear { from, .. } => self.cleared(*from, relations, belief)?,
             Command::Tidy(within) | Command::Clean(within) => {
                 self.tidied(*within, relations, belief)?
             }

@@ -319,6 +319,17 @@ fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
         let why = unfinished(world, ending, answer, language);
         told.push_str(&format!("\n{} {stays}. {why}", thing.unwrap_or_default()));
     }
+    for thing in &answer.strays {
+        let thing = name_in(world, thing, language);
+        told.push_str(&match language {
+            Language::Russian => {
+                format!("\nНеизвестно, где место для «{thing}»: оставлено там, где лежит.")
+            }
+            Language::English => {
+                format!("\nIt is not known where {thing} belongs: it stays where it is.")
+            }
+        });
+    }
     if answer.not_begun > 0 {
         let rest = "\nОстальное из этого задания не начато.";
         told.push_str(language.pick(rest, "\nThe rest of this order was not begun."));
@@ -336,6 +347,9 @@ fn unfinished(
         TaskEnding::Done | TaskEnding::AlreadyTrue => match &answer.reported {
             Some(position) => position.say(language),
             None if answer.stops => nothing_to_stop(language).to_owned(),
+            None if answer.tidies && !answer.strays.is_empty() => language
+                .pick("Больше убирать нечего.", "Nothing else is to be put away.")
+                .to_owned(),
             None if answer.tidies => {
                 let kept = "Всё уже на своих местах: там, где хранится или было на карте.";
                 let english =

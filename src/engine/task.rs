@@ -119,6 +119,8 @@ pub struct TaskAnswer {
     pub ending: TaskEnding,
     /// What was to be tidied and stays where it is, with the ending of each; the others are in their places.
     pub left: Vec<(GoalFact, TaskEnding)>,
+    /// What was to be tidied and has no place, by name: it was moved, and is where it is.
+    pub strays: Vec<String>,
     /// How many goals of the sentence were not begun, since one before them was out of reach.
     pub not_begun: usize,
     /// Whether it was told to tidy: «Убери со стола».
@@ -383,13 +385,19 @@ impl State {
         if let Err(failure) = self.seek(sought, relations, &mut belief, vehicle)? {
             return self.not_begun(failure);
         }
-        let tidying =
-            |c: &Command<_>| matches!(c, Command::Tidy(_) | Command::Clear(_) | Command::Clean(_));
+        let tidying = |c: &Command<_>| {
+            matches!(c, Command::Tidy(_) | Command::Clear { .. } | Command::Clean(_))
+        };
         let kept = |c: &Command<_>| matches!(c, Command::PutBack(_) | Command::PutAway(_));
         let tidies = commands.iter().any(|c| tidying(c) || kept(c));
+        let strays = match &commands.iter().filter(|c| tidying(c)).collect::<Vec<_>>()[..] {
+            [Command::Tidy(within) | Command::Clean(within)] => self.strays(*within, relations)?,
+            _ => Vec::new(),
+        };
         let domain = &self.rules.robot;
         let errand = Errand { domain, belief, relations: followed, goals, tidies };
         let mut answer = self.drive(errand, vehicle, tell, stop)?;
+        answer.strays = strays;
         let must_report = matches!(answer.ending, TaskEnding::Stopped)
             || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
         let reported = must_report.then(|| self.locate(answer.end_map, answer.end, false));
@@ -534,6 +542,7 @@ impl State {
             seconds: vehicle.time() - begun_at,
             ending,
             left,
+            strays: Vec::new(),
             not_begun: goals.len() - begun,
             tidies: false,
             stops: false,
@@ -594,6 +603,7 @@ impl State {
             seconds: 0.0,
             ending: TaskEnding::Failed(failure),
             left: Vec::new(),
+            strays: Vec::new(),
             not_begun: 0,
             tidies: false,
             stops: false,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::map::{Entity, Mark, World};
+use crate::map::{Entity, Mark, Replica, World};
 use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
@@ -20,37 +20,69 @@ impl State {
         within: Option<Entity>,
         relations: &Relations,
     ) -> Result<Vec<(String, String)>, Error> {
-        let world = self.world()?;
-        let homes = self.homes()?;
-        let (now, held) = (self.uncarried()?, self.held()?);
-        let lie_on = supports(now, relations);
-        let is_asked = |thing: &str| match within {
-            None => true,
-            Some(Entity::Area(area)) => {
-                now.replicas.values().any(|r| r.name == thing && r.area == area)
-            }
-            Some(Entity::Map(map)) => now.replicas.values().any(|r| {
-                r.name == thing && world.placement(r.area).is_some_and(|(on, _)| on == map)
-            }),
-            Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
-        };
-        let bins = self.bins()?;
-        let is_waste = |thing: &str| {
-            let called = now.replicas.values().filter(|one| one.name == thing);
-            called.map(|one| one.id).any(|id| bins.iter().any(|bin| relations.is_inside(id, *bin)))
-        };
+        let (lie_on, is_out) = (supports(self.uncarried()?, relations), self.is_out(relations)?);
+        let is_asked = self.is_asked(within, relations)?;
+        let held = self.held()?;
         let is_held = |thing: &str| held.is_some_and(|held| held.name == thing);
-        let lies = |thing: &str| now.replicas.values().any(|r| r.name == thing);
-        Ok(homes
+        Ok(self
+            .homes()?
             .into_iter()
             .filter(|(thing, home)| {
                 is_held(thing)
-                    || (lies(thing)
-                        && is_asked(thing)
-                        && lie_on.get(thing) != Some(home)
-                        && !is_waste(thing))
+                    || is_asked(thing) && lie_on.get(thing) != Some(home) && is_out(thing)
             })
             .collect())
+    }
+
+    /// Whether a thing of this name lies where it is asked for: anywhere, in an Area, on a storey, on a thing.
+    fn is_asked(
+        &self,
+        within: Option<Entity>,
+        relations: &Relations,
+    ) -> Result<impl Fn(&str) -> bool, Error> {
+        let (world, now) = (self.world()?, self.uncarried()?);
+        let lie_on = supports(now, relations);
+        Ok(move |thing: &str| {
+            let mut called = now.replicas.values().filter(|replica| replica.name == thing);
+            match within {
+                None => called.next().is_some(),
+                Some(Entity::Area(area)) => called.any(|replica| replica.area == area),
+                Some(Entity::Map(map)) => called
+                    .any(|replica| world.placement(replica.area).is_some_and(|(on, _)| on == map)),
+                Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
+            }
+        })
+    }
+
+    /// Whether no thing of this name was thrown away.
+    fn is_out(&self, relations: &Relations) -> Result<impl Fn(&str) -> bool, Error> {
+        let (now, bins) = (self.uncarried()?, self.bins()?);
+        Ok(move |thing: &str| {
+            let mut called = now.replicas.values().filter(|replica| replica.name == thing);
+            !called.any(|one| bins.iter().any(|bin| relations.is_inside(one.id, *bin)))
+        })
+    }
+
+    /// The names of things that have no home, and are elsewhere than they were surveyed.
+    pub(super) fn strays(
+        &self,
+        within: Option<Entity>,
+        relations: &Relations,
+    ) -> Result<Vec<String>, Error> {
+        let (world, now, homes) = (self.world()?, self.uncarried()?, self.homes()?);
+        let (is_asked, is_out) = (self.is_asked(within, relations)?, self.is_out(relations)?);
+        let is_held = |id| self.held().is_ok_and(|held| held.is_some_and(|held| held.id == id));
+        let is_astray = |thing: &&Replica| match now.replicas.get(&thing.id) {
+            Some(there) => {
+                (there.area, &there.frame) != (thing.area, &thing.frame)
+                    && is_asked(&thing.name)
+                    && is_out(&thing.name)
+            }
+            None => is_held(thing.id),
+        };
+        let carried = world.replicas.values().filter(|t| world.has_trait(t.id, "portable"));
+        let homeless = carried.filter(|thing| !homes.contains_key(&thing.name));
+        Ok(homeless.filter(is_astray).map(|thing| thing.name.clone()).collect())
     }
 
     /// The names of what lies on a thing and can be carried.
@@ -64,7 +96,7 @@ impl State {
         Ok(lying.filter(|(_, on)| on == name).map(|(thing, _)| thing).collect())
     }
 
-    /// Where a thing is kept, by name; none where it lies there already.
+    /// Where a thing is kept, by name; none where it lies there already, or was never moved from where it was surveyed.
     ///
     /// # Errors
     /// It has no home.

@@ -57,7 +57,7 @@ impl Hearing<'_, '_> {
                 }
                 return match self.offer_nearest(line, &error, language)? {
                     true => Ok(()),
-                    false => self.refuse(error, language),
+                    false => self.refuse_order(line, error, language),
                 };
             }
         };

@@ -33,6 +33,7 @@ pub(crate) use waiting::queue_in_words;
 use crate::language::Language;
 use crate::language::command::{
     Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb, waiting,
+    whither_alone,
 };
 use crate::language::question::{
     Aside, Conditional, Corrected, Doubt, Memory, Unanswered, aside, asks_whether, begs, behind_no,
@@ -58,6 +59,8 @@ pub struct Dialogue {
     offered: Option<String>,
     /// The order that asked back last.
     open: Option<String>,
+    /// The order before this line that lacked nothing but whither something goes.
+    unplaced: Option<String>,
     /// Why the last line was not carried out, until another one is answered.
     refusal: Option<String>,
     /// The language of what has no words, and of tasks given by [`Dialogue::order`].
@@ -108,6 +111,7 @@ impl Dialogue {
             memory: Memory::speaking(language),
             offered: None,
             open: None,
+            unplaced: None,
             refusal: None,
             language,
             keeps: true,
@@ -130,6 +134,7 @@ impl Dialogue {
             memory: self.memory.clone(),
             offered: self.offered.clone(),
             open: self.open.clone(),
+            unplaced: self.unplaced.clone(),
             refusal: self.refusal.clone(),
             language: self.language,
             keeps: true,
@@ -275,6 +280,12 @@ impl Hearing<'_, '_> {
         }
         if is_too_long(line) {
             return self.ask(line);
+        }
+        if let (Some(order), Some(place)) = (self.dialogue.unplaced.take(), whither_alone(line)) {
+            let whole = format!("{} {place}", order.trim_end_matches(['.', '!', ' ']));
+            if self.engine.understand_in(&whole, &mut self.dialogue.memory.clone()).is_ok() {
+                return self.obey(&whole, true);
+            }
         }
         let offered = self.dialogue.offered.take();
         let awaited = offered.is_some() || self.dialogue.memory.awaits_reply();
@@ -552,7 +563,7 @@ impl Hearing<'_, '_> {
         });
         let ended = match carried_out {
             Ok(task) => self.done(line, task, None, language),
-            Err(error) => self.refuse(error, language),
+            Err(error) => self.refuse_order(line, error, language),
         };
         ended?;
         if let Some(id) = noted {
@@ -607,6 +618,12 @@ impl Hearing<'_, '_> {
         };
         self.dialogue.refusal = Some(text.clone());
         self.put(outcome, &text, language)
+    }
+
+    /// An order that lacks nothing but whither something goes can be completed by a place.
+    fn refuse_order(&mut self, line: &str, error: Error, language: Language) -> Result<(), Error> {
+        self.dialogue.unplaced = error.asks_whither().then(|| line.to_owned());
+        self.refuse(error, language)
     }
 
     fn not_begun(&mut self, order: &str) -> Result<(), Error> {

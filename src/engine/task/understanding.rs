@@ -7,7 +7,7 @@ use crate::engine::located::{nowhere_on, spot_in_words};
 use crate::engine::{Error, RequestError, State};
 use crate::language::Language;
 use crate::language::command::{
-    Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
+    self, Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
     with_names_marked, without_clock, without_marks,
 };
 use crate::language::question::{
@@ -180,6 +180,7 @@ impl State {
                 return Err(misheard.quoted_from(&sentence).into());
             }
         };
+        commands = self.each_cleared(commands)?;
         self.check_places(&commands)?;
         place_windows(&mut commands, &windows);
         if let Some((_, x, y)) = place_spots(&mut commands, spots) {
@@ -215,6 +216,32 @@ impl State {
             memory.order(&named, &places.collect::<Vec<_>>());
         }
         Ok(commands)
+    }
+
+    /// "Clear the sofa onto the bed": what lies on the one is put on the other, each by itself.
+    fn each_cleared(&self, commands: Vec<Command<Entity>>) -> Result<Vec<Command<Entity>>, Error> {
+        let around = self.around()?;
+        let (world, relations) = (around.world(), around.relations()?);
+        let mut told = Vec::new();
+        for command in commands {
+            let put = match &command {
+                Command::Clear { from, to: Some(to) } => {
+                    let names = self.lying_on(*from, relations)?;
+                    let things = names.iter().flat_map(|name| world.find(name));
+                    let put = |id| Command::Put {
+                        what: command::Thing { id, at: None, toward: None },
+                        to: to.clone(),
+                    };
+                    things.map(put).collect()
+                }
+                _ => Vec::new(),
+            };
+            if put.is_empty() {
+                told.push(command);
+            }
+            told.extend(put);
+        }
+        Ok(told)
     }
 
     /// An order waits for the name that it lacks, and is what the next line amends: «На карте нет «лекарсво». Есть

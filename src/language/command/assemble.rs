@@ -6,10 +6,11 @@ use std::ops::Range;
 
 use super::clauses::{Clause, clauses};
 use super::grammar::{Argument, Item, Reference, Sentence, items};
-use super::roles::{cases_after, choose, direction, question, within};
+use super::misheard::WHITHER;
+use super::roles::{cases_after, choose, direction, question, restores, within};
 use super::vocabulary::{Haunt, Role, Verb};
 use super::{Command, Facing, Listener, Misheard, Placement, Relation, Thing, gathered};
-use crate::words::{Case, Hit};
+use crate::words::{Case, Hit, Language};
 
 /// Reads a sentence into commands. See [`Listener::hear`].
 pub(super) fn commands<T: Clone + Eq + Hash>(
@@ -27,6 +28,7 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
         listener,
         last: listener.last.clone(),
         has_named: false,
+        is_mass: false,
         open: RefCell::new(listener.meant.clone()),
     };
     // «Стоп, не едь!» must stop, whatever else is in the sentence; «подъедь к двери и остановись» only ends so, and what
@@ -95,6 +97,9 @@ pub(super) struct Reader<'r, 't, T> {
     last: Vec<T>,
     /// Whether the sentence itself has named what they mean.
     has_named: bool,
+    /// Whether one clause has named several, which "it" then means together: "Take everything off the table and put it on
+    /// the counter". «Его» and «её» have a gender, and mean one.
+    is_mass: bool,
     /// What is known to be meant, and was not found in the sentence yet.
     open: RefCell<Vec<T>>,
 }
@@ -113,6 +118,8 @@ struct Roles<T> {
     with_key: bool,
     haunt: Option<Haunt>,
     listed: bool,
+    /// Whether «всё» is all that was said of them, by a sentence that names nothing before.
+    everything: bool,
     /// The words of the last argument of each part.
     said: Spans,
 }
@@ -254,6 +261,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         roles.on_floor &= !on_floor;
         let named = !roles.objects.is_empty();
         let clears = verb == Verb::Clear;
+        let fixed = |thing: &T| self.listener.fixed.is_some_and(|fixed| fixed(thing));
         // «Обойди стол» goes around it.
         let is_room = |thing: &T| self.listener.rooms.is_some_and(|is_room| is_room(thing));
         if verb == Verb::Visit && (!roles.objects.iter().all(is_room) || !named || placed) {
@@ -261,6 +269,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         }
         let verb = match verb {
             Verb::Visit => Verb::GoTo,
+            // «Верни всё на место», «убери всё»: whatever is not where it belongs.
+            _ if roles.everything => Verb::Tidy,
             Verb::Put | Verb::Move | Verb::Clear | Verb::Leave if on_floor => Verb::SetDown,
             // «Подожди в коридоре»
             Verb::Wait if placed => Verb::GoTo,
@@ -279,8 +289,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             Verb::Leave if placed && named => Verb::Put,
             // What is put away without a place goes to where it is kept; what stays is cleared of what is on it.
             Verb::Clear if roles.to.is_none() && named => {
-                let fixed = |thing: &T| self.listener.fixed.is_some_and(|fixed| fixed(thing));
-                if roles.objects.iter().all(fixed) { Verb::Tidy } else { Verb::Clear }
+                if roles.objects.iter().all(fixed) {
+                    Verb::Tidy
+                } else {
+                    Verb::Clear
+                }
             }
             verb => verb,
         };
@@ -311,7 +324,18 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             });
             return Ok(there.into_iter().chain([command]).collect());
         }
-        let carried = |thing: &T| self.listener.fixed.is_some_and(|fixed| !fixed(thing));
+        let carried = |thing: &T| self.listener.fixed.is_some() && !fixed(thing);
+        // "Clear the sofa onto the bed"
+        if clears
+            && roles.to.is_some()
+            && roles.objects.iter().all(fixed)
+            && (named || roles.whence)
+        {
+            let to = roles.to.take();
+            let at = if named { None } else { roles.at.take() };
+            let objects = at.into_iter().map(|place| place.anchor).chain(roles.objects.drain(..));
+            return Ok(objects.map(|from| Command::Clear { from, to: to.clone() }).collect());
+        }
         match verb {
             Verb::Stop | Verb::Needless => return Ok(vec![Command::Stop]),
             Verb::Face => {
@@ -334,7 +358,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             {
                 let done = |place: Option<T>| match (verb, place) {
                     (Verb::Clean, place) => Command::Clean(place),
-                    (_, Some(place)) if clears && named => Command::Clear(place),
+                    (_, Some(place)) if clears && (named || roles.whence) => {
+                        Command::Clear { from: place, to: None }
+                    }
                     (_, place) => Command::Tidy(place),
                 };
                 // "Tidy the table in the kitchen": the place tells which.
@@ -410,7 +436,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             return Err(self.incomplete(words, question(verb)));
         }
         self.last.clone_from(&objects);
-        self.has_named = true;
+        self.is_mass = objects.len() > 1;
         if verb == Verb::SetDown {
             let within = roles.to.take().or_else(|| roles.at.take()).map(|place| place.anchor);
             let down = |id| Command::SetDown {
@@ -455,7 +481,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 Command::SetDown { what, within: None }
             }
             (Verb::Put, None) => {
-                return Err(self.incomplete(words, ("куда положить", "where to put it")));
+                return Err(self.incomplete(words, WHITHER));
             }
             // «дверь из кухни в коридор»: the place belongs to the thing.
             (Verb::Open, toward) => Command::Open(Thing { toward, ..what }),
@@ -505,6 +531,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             with_key: false,
             haunt: None,
             listed: true,
+            everything: false,
             said: Spans::default(),
         };
         let mut latest_is_to = None;
@@ -589,7 +616,19 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             let second = seconds.contains(&a.words.start);
             a.link.is_none() && !second && !matches!(a.reference, Reference::Me)
         };
-        for argument in arguments.iter().filter(named) {
+        let objects: Vec<_> = arguments.iter().filter(named).collect();
+        let is_everything = |a: &&&Argument<'_, T>| matches!(a.reference, Reference::Everything);
+        let says_whither = roles.to.is_some() || roles.to_me;
+        if restores(verb)
+            && !self.has_named
+            && !says_whither
+            && !objects.is_empty()
+            && objects.iter().all(is_everything)
+        {
+            roles.everything = true;
+            return Ok(roles);
+        }
+        for argument in objects {
             roles.said.object = argument.words.clone();
             let cases = [Case::Accusative, Case::Genitive, Case::Nominative];
             let objects = match &argument.reference {
@@ -607,7 +646,17 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 {
                     self.resolve(argument, &cases).into_iter().collect()
                 }
-                Reference::Them if !self.last.is_empty() => self.last.clone(),
+                Reference::Them | Reference::Everything if !self.last.is_empty() => {
+                    self.last.clone()
+                }
+                Reference::Pronoun
+                    if self.is_mass
+                        && Language::of(
+                            &self.sentence.text[self.sentence.span(&argument.words)],
+                        ) == Language::English =>
+                {
+                    self.last.clone()
+                }
                 _ => vec![self.resolve(argument, &cases)?],
             };
             // "them both" is said twice of the same.
@@ -622,7 +671,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     fn resolve(&self, argument: &Argument<'_, T>, cases: &[Case]) -> Result<T, Misheard> {
         let hits = match &argument.reference {
             Reference::Known(hits) => hits,
-            Reference::Pronoun | Reference::Them => {
+            Reference::Pronoun | Reference::Them | Reference::Everything => {
                 return self.last.last().cloned().ok_or_else(|| {
                     self.incomplete(&argument.words, ("о чём речь", "what you mean"))
                 });

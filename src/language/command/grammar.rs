@@ -128,6 +128,8 @@ pub(super) enum Reference<'s, T> {
     Me,
     Pronoun,
     Them,
+    /// «всё», without a name.
+    Everything,
 }
 
 #[derive(Debug, Clone)]
@@ -240,9 +242,8 @@ fn argument<'s, 't, T: Clone + Eq + Hash>(
     let from = rest.at;
     let all = determiners.contains(&Meaning::All);
     let named = alt((personal, mistagged, postposed, known, unknown)).parse(rest.clone());
-    // «Верни всё на место»: all that was spoken of.
     let (rest, reference) = match named {
-        Err(_) if all => (rest, Reference::Them),
+        Err(_) if all => (rest, Reference::Everything),
         named => named?,
     };
     let from = from.min(rest.at.saturating_sub(1));

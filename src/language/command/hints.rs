@@ -2,10 +2,10 @@
 
 use super::gathered::gathered;
 use super::said::Said;
-use super::vocabulary::{Meaning, Verb, longest};
-use super::{Misheard, is_too_long, spoken, time, verbs};
+use super::vocabulary::{Link, Meaning, Role, Verb, longest};
+use super::{Misheard, Relation, is_too_long, spoken, time, verbs};
 use crate::units::{OwnText, Source};
-use crate::words::{phrase_at, word_keys};
+use crate::words::{phrase_at, word_keys, word_ranges};
 
 /// A text that tells by a conjunction in which order it is to be done, in that order.
 #[must_use]
@@ -56,6 +56,34 @@ pub fn without_clock(text: &str) -> Result<(), Misheard> {
 pub(crate) fn says_whither(word: &str) -> bool {
     let found = longest(&std::iter::once(word));
     found.is_some_and(|(_, meaning)| meaning.says_whither())
+}
+
+/// The place that is all a text says, with its preposition, for an order that lacked only that: "on the sofa, please",
+/// "put them there: on the sofa" without the "there". English "on" and "in" say whither then.
+#[must_use]
+pub fn whither_alone(text: &str) -> Option<String> {
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let mut at = 0;
+    while let Some((taken, meaning)) = longest(&keys[at..].iter().map(String::as_str)) {
+        let place = &text[words[at].start..];
+        let puts = matches!(meaning, Meaning::Verb(Verb::Put | Verb::Move));
+        match meaning {
+            Meaning::Filler | Meaning::Pronoun | Meaning::Them | Meaning::All => {}
+            Meaning::Verb(_) if puts => {}
+            Meaning::OnFloor => return Some(place.to_owned()),
+            Meaning::Link(Link { role: Role::Whence | Role::Via, .. }) => return None,
+            Meaning::Link(_) if verbs::has_verb(place) => return None,
+            Meaning::Link(Link { role: Role::Where, relation: Relation::On | Relation::In }) => {
+                let behind = &text[words[at + taken - 1].end..];
+                let into = if keys[at].starts_with("in") { "into" } else { "onto" };
+                return Some(format!("{into}{behind}"));
+            }
+            Meaning::Link(_) => return Some(place.to_owned()),
+            _ => return None,
+        }
+        at += taken;
+    }
+    None
 }
 
 /// Whether words say what to do and not yet to what: «Принеси мне», "could you please bring".

@@ -111,7 +111,16 @@ pub enum Misheard {
     },
 }
 
+/// What is asked where a command does not say whither something goes.
+pub(super) const WHITHER: (&str, &str) = ("куда положить", "where to put it");
+
 impl Misheard {
+    /// Whether all that is lacking is whither something goes.
+    #[must_use]
+    pub fn asks_whither(&self) -> bool {
+        matches!(self, Self::Incomplete { question, .. } if *question == WHITHER.0)
+    }
+
     /// The same in the words of who spoke: an order is put plainly before it is heard, and what was put in is not theirs.
     #[must_use]
     pub fn quoted_from(mut self, said: &str) -> Self {

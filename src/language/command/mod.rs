@@ -42,7 +42,7 @@ mod waiting;
 pub(crate) use correction::{Correction, correction, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_haunt, is_of_another, names_nothing, says_whither};
-pub use hints::{in_time, is_command, is_order, preamble, without_clock};
+pub use hints::{in_time, is_command, is_order, preamble, whither_alone, without_clock};
 pub use misheard::Misheard;
 pub use named::{with_names_marked, without_marks};
 pub(crate) use spoken::lost;
@@ -176,8 +176,11 @@ pub enum Command<T> {
     Find(Thing<T>),
     /// Everywhere, unless a place is given.
     Tidy(Option<T>),
-    /// What lies on a thing is put away; a room is tidied.
-    Clear(T),
+    /// What lies on a thing is put away, or whither it is said; a room is tidied.
+    Clear {
+        from: T,
+        to: Option<Placement<T>>,
+    },
     /// A room is tidied; of a thing the surface is meant.
     Clean(Option<T>),
     CallOperator,
@@ -233,7 +236,7 @@ impl<T> Command<T> {
     pub fn place(&self) -> Option<&Placement<T>> {
         match self {
             Self::GoTo { to, .. } | Self::Put { to, .. } => Some(to),
-            Self::Bring { to, .. } => to.as_ref(),
+            Self::Bring { to, .. } | Self::Clear { to, .. } => to.as_ref(),
             _ => None,
         }
     }

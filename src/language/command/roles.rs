@@ -81,6 +81,11 @@ pub(super) fn by_verb(verb: Verb) -> Role {
     }
 }
 
+/// Whether a verb brings things to where they belong.
+pub(super) fn restores(verb: Verb) -> bool {
+    matches!(verb, Verb::PutBack | Verb::Return | Verb::Clear)
+}
+
 pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
     match verb {
         Verb::Bring | Verb::Need => ("что принести", "what to bring"),

@@ -342,7 +342,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::All,
-        "все|всю|обе|оба|обоих|обеих|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|каждой|каждого|каждом|каждому|all|all the|all of the|every|each|both|both the",
+        "все|всю|обе|оба|обоих|обеих|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|каждой|каждого|каждом|каждому|all|all the|all of the|every|each|both|both the|everything",
     ),
     (Meaning::Not, "не|нельзя|никогда|not|never|don t|do not|dont"),
     (
