@@ -175,6 +175,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     let landmarks = Landmarks::of(working.task());
     let mut anew =
         errands.is_none().then(|| Restarts::of(working.task(), landmarks.as_ref(), &some));
+    let mut is_provable = true;
     let mut spent = 0_u64;
     for round in 0..ROUNDS {
         if best.is_proven() {
@@ -218,21 +219,25 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             break;
         }
         limits.check(0)?;
-        match prove(working.task(), best.ceiling(), effort, limits) {
-            Tried::Plan(plan) => {
+        let tried = is_provable.then(|| prove(working.task(), best.ceiling(), effort, &some));
+        match tried {
+            Some(Tried::Plan(plan)) => {
                 let plan = working.own(plan);
                 best.raise(plan.steps.len());
                 best.offer(plan);
             }
             // In the terms of the whole task, and with its reason.
-            Tried::NoPlan => return Ok(Some(solve(task, limits))),
-            Tried::AtLeast(at_least, limit) => {
+            Some(Tried::NoPlan) => return Ok(Some(solve(task, limits))),
+            Some(Tried::AtLeast(at_least, limit)) => {
                 best.raise(at_least);
-                // Memory may suffice for better plans still.
-                if let Some(limit) = limit.filter(|limit| *limit != Limit::Memory) {
-                    return Err(limit);
+                match limit {
+                    // It suffices for better plans still, and for this proof it never will.
+                    Some(Limit::Memory) => is_provable = false,
+                    Some(limit) => return Err(limit),
+                    None => {}
                 }
             }
+            None => {}
         }
         if best.plan.is_none() {
             // Each round looks farther for a first plan.

@@ -436,6 +436,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             return Err(self.incomplete(words, question(verb)));
         }
         self.last.clone_from(&objects);
+        self.has_named = true;
         self.is_mass = objects.len() > 1;
         if verb == Verb::SetDown {
             let within = roles.to.take().or_else(|| roles.at.take()).map(|place| place.anchor);
