@@ -550,10 +550,15 @@ fn dashed(said: &Said) -> Option<String> {
     let at: Vec<usize> = (1..said.keys.len()).filter(|&n| dash(n) && whither(n)).collect();
     let first = *at.first()?;
     let put = Language::of(&said.keys[first]).pick("положи ", "put ");
+    let begins = |n: usize| (0..n).rev().find(|&b| b == 0 || (said.parted(b) && !dash(b)));
+    let begins: Vec<usize> = at.iter().filter_map(|n| begins(*n)).collect();
+    // «Книга – на стол – на стул» says one thing twice.
+    if begins.windows(2).any(|pair| pair[0] == pair[1]) {
+        return None;
+    }
     let mut text = said.text.clone();
-    for n in at.into_iter().rev() {
+    for (n, begin) in at.into_iter().zip(begins).rev() {
         text.replace_range(said.words[n - 1].end..said.words[n].start, " ");
-        let begin = (0..n).rev().find(|&b| b == 0 || (said.parted(b) && !dash(b)))?;
         text.insert_str(said.words[begin].start, put);
     }
     Some(text)
