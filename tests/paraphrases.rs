@@ -2,7 +2,8 @@
 
 use orthoframe::Engine;
 use orthoframe::engine::Memory;
-use orthoframe_language::question::{Answer, Doubt, PARAPHRASES, Unanswered};
+use orthoframe_language::paraphrase::FILES as PARAPHRASES;
+use orthoframe_language::question::{Answer, Doubt, Unanswered};
 
 use crate::worlds::rb2;
 

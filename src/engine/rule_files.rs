@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use crate::exchange::SYNONYMS;
-use crate::meaning::FILES;
+use crate::meaning::files;
 use crate::semantics::STANDARD;
 use crate::units::{Carried, Gather as _, carried, is_input, write_file};
 
@@ -41,8 +41,8 @@ fn rule_files() -> impl Iterator<Item = (String, &'static str)> {
     let of_maps = [("relations.dl", &STANDARD), ("import-synonyms.toml", &SYNONYMS)];
     let of_planning = OF_PLANNING.iter().map(|(name, text)| (*name, text));
     let all = of_maps.into_iter().chain(of_planning).map(|(name, text)| (name.to_owned(), text));
-    let of_language = FILES.iter().map(|(name, text)| (format!("language/{name}"), text));
-    all.chain(of_language).map(|(name, text)| (name, **text))
+    let of_language = files().map(|(name, text)| (format!("language/{name}"), text));
+    all.map(|(name, text)| (name, **text)).chain(of_language)
 }
 
 impl Rules {
@@ -82,7 +82,7 @@ pub(crate) fn question_beginnings() -> &'static [String] {
     static FOUND: OnceLock<Vec<String>> = OnceLock::new();
     FOUND.get_or_init(|| {
         let frames =
-            FILES.iter().filter(|file| ["ru/frames.lang", "en/frames.lang"].contains(&file.0));
+            files().filter(|(path, _)| ["ru/frames.lang", "en/frames.lang"].contains(path));
         let bodies =
             frames.flat_map(|(_, text)| text.lines()).filter_map(|line| line.split_once("<-"));
         // What stands in brackets has several beginnings, and is left out.

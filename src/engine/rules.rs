@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-use crate::language::question::Paraphrases;
-use crate::meaning::{FILES, Grammar, words_beside};
+use crate::language::paraphrase::Paraphrases;
+use crate::meaning::{Grammar, files as built_in, words_beside};
 use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
 use crate::units::{InOrder as _, Source};
@@ -89,8 +89,8 @@ fn read_source(path: &Path) -> Result<Source, RequestError> {
 /// stands beside the declarations of rule files.
 fn read_grammar(base: Option<PathBuf>, beside: Vec<(String, Source)>) -> Result<Grammar, Error> {
     let mut files: BTreeMap<String, Source> = BTreeMap::new();
-    for (name, text) in &FILES {
-        files.insert((*name).to_owned(), Source::new(format!("rules/language/{name}"), **text));
+    for (name, text) in built_in() {
+        files.insert(name.to_owned(), Source::new(format!("rules/language/{name}"), text));
     }
     files.extend(beside);
     let mut folders: Vec<(String, PathBuf)> =

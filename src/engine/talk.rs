@@ -2,7 +2,7 @@
 
 use crate::geometry::{Barrier, Method, NoRoute, Ride};
 use crate::language::Language;
-use crate::language::command::{Misheard, is_command, is_order, without_marks};
+use crate::language::command::{Misheard, is_command, is_order_by, without_marks};
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Corrected, Doubt, Fact, Memory, Mind, Misread, News, Noun, Past, Query,
@@ -243,8 +243,10 @@ impl State {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
         let asks = asker.begins_as_question(text);
+        let lines = &self.rules.paraphrases();
         // "Give me directions to the fridge" begins as an order does.
-        Ok((!asks && is_command(text)) || (is_order(text) && !asker.asks_to_tell(text)))
+        Ok((!asks && is_command(text, lines))
+            || (is_order_by(text, lines) && !asker.asks_to_tell(text)))
     }
 
     /// Whether a text asks behind what a person tells of itself, and is understood so: "I need the battery, where is it?"

@@ -62,6 +62,7 @@ use orthoframe_units as units;
 pub mod command;
 pub mod directions;
 pub mod names;
+pub mod paraphrase;
 pub mod question;
 pub mod report;
 pub mod scan;

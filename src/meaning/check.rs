@@ -13,7 +13,8 @@ use super::grammar::{
 use super::paraphrase;
 use super::sense::{Function, Meaning, Type};
 use super::term::{Dimension, RoleId, Sorts};
-use crate::language::question::{Paraphrases, Property};
+use crate::language::paraphrase::Paraphrases;
+use crate::language::question::Property;
 use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, WordHints, english};
 use crate::units::{Source, nearest_name};
 

@@ -9,7 +9,7 @@
 //! role   left_of(x: Thing, y: Thing) = LEFT_OF(x, y) if sector(_, y, _, _, _)         and only of what has a front
 //! Prep   <- на[loc] | сверху на[loc] = on               words of a category, with what they mean
 //! NP     <- a:Adj n:NP {agree a n} = n & a              a phrase
-//! same   что содержит X = что внутри X               another way to say something: `language::question::Paraphrases`
+//! same   что содержит X = что внутри X               another way to say something: `language::paraphrase::Paraphrases`
 //! list(x & p) <- какие x:NP[nom] pos? p:PP* {cost 1}    a frame: what a clause asks
 //! ```
 //!
@@ -174,8 +174,8 @@ impl<'t> Parser<'t> {
 
     fn statement(&mut self, range: &Range<usize>) -> Parsed<Statement> {
         let first = self.named((
-            "void, loose, order, role, same, set, категория или форма",
-            "void, loose, order, role, same, set, a category or a form",
+            "void, loose, order, role, same, ordered, set, категория или форма",
+            "void, loose, order, role, same, ordered, set, a category or a form",
         ))?;
         let follows_blank = self.scan.text[self.scan.at..].starts_with([' ', '\t']);
         let is_rule = self.rest().starts_with(['<', '(']);
@@ -204,7 +204,7 @@ impl<'t> Parser<'t> {
                 Statement::Say { name, text }
             }
             "role" if !is_rule => self.role()?,
-            "same" | "set" if follows_blank => {
+            "same" | "ordered" | "set" if follows_blank => {
                 self.scan.at = self.scan.end;
                 Statement::Paraphrase(range.clone())
             }

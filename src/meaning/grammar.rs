@@ -8,7 +8,8 @@ use super::file::Repeat;
 use super::sense::{Meaning, Signatures, Type};
 use super::term::Sorts;
 use crate::language::Language;
-use crate::language::question::{Paraphrases, Part};
+use crate::language::paraphrase::{self, Paraphrases};
+use crate::language::question::Part;
 use crate::units::{Carried, Source, carried};
 
 /// Every grammar that there is: what roles mean, and each language's words, phrases and frames.
@@ -129,21 +130,24 @@ macro_rules! files {
     };
 }
 
-/// Grammar files that are built in, by their paths within `rules/language`.
-pub static FILES: [(&str, Carried); 12] = files![
+/// Grammar files that are built in beside the paraphrases, by their paths within `rules/language`.
+static FILES: [(&str, Carried); 10] = files![
     "forms.lang",
     "ru/words.lang",
     "ru/phrases.lang",
     "ru/frames.lang",
-    "ru/paraphrases.lang",
     "en/words.lang",
     "en/phrases.lang",
     "en/frames.lang",
-    "en/paraphrases.lang",
     "de/words.lang",
     "de/phrases.lang",
     "de/frames.lang",
 ];
+
+/// Every language file that is built in: its path within `rules/language`, and its text.
+pub fn files() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FILES.iter().chain(&paraphrase::FILES).map(|(path, text)| (*path, **text))
+}
 
 impl Grammar {
     /// The grammar of the files that are built in.
@@ -152,7 +156,7 @@ impl Grammar {
     /// When these have a fault, which a test rules out.
     #[must_use]
     pub fn built_in() -> Self {
-        let files = FILES.iter().map(|(name, text)| (*name, Source::new(name, **text)));
+        let files = files().map(|(name, text)| (name, Source::new(name, text)));
         let (grammar, faults) = Self::of(&files.collect::<Vec<_>>());
         assert!(faults.is_none(), "the built-in grammar is sound: {faults:?}");
         grammar
@@ -198,7 +202,7 @@ mod tests {
     #[test]
     fn the_order_of_the_files_does_not_matter() {
         let mut files: Vec<(&str, Source)> =
-            FILES.iter().map(|(name, text)| (*name, Source::new(name, **text))).collect();
+            files().map(|(name, text)| (name, Source::new(name, text))).collect();
         files.reverse();
         let (grammar, faults) = Grammar::of(&files);
         assert!(faults.is_none(), "{faults:?}");

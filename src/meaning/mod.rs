@@ -41,7 +41,7 @@ mod words;
 pub use declared::words_beside;
 pub use fault::{LangError, LangFault, LangFaults};
 pub use features::Features;
-pub use grammar::{FILES, Grammar};
+pub use grammar::{Grammar, files};
 pub use outcome::{Answer, Found, NoAnswer, Outcome, Reading};
 pub use query::Rows;
 pub use read::MARGIN;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::language::question::{Paraphrases, language_of};
+use crate::language::paraphrase::{Paraphrases, language_of};
 use crate::language::scan::Unread;
 use crate::units::{Bilingual, Source};
 

@@ -325,7 +325,9 @@ impl Hearing<'_, '_> {
             );
             return self.put(Outcome::NothingOffered, text, language);
         }
-        if let Some(line) = in_time(line).filter(|line| is_order(line)) {
+        if let Some(line) =
+            in_time(line, &self.engine.rules.paraphrases()).filter(|line| is_order(line))
+        {
             return self.command(&line, awaited);
         }
         if let Some(conditional) = conditional(line) {

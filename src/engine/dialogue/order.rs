@@ -57,7 +57,8 @@ impl Hearing<'_, '_> {
 
     fn one_order(&mut self, order: &str) -> Result<(), Error> {
         let language = self.dialogue.language;
-        let in_order = in_time(order).filter(|order| is_order(order));
+        let in_order =
+            in_time(order, &self.engine.rules.paraphrases()).filter(|order| is_order(order));
         let order = in_order.as_deref().unwrap_or(order);
         let mut idle = None;
         if let Some(conditional) = conditional(order)

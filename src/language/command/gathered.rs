@@ -7,22 +7,23 @@ use super::is_too_long;
 use super::spoken;
 use super::verbs::{RELATIVE, Sort, keys_of, meaning_at};
 use super::vocabulary::Meaning;
+use crate::paraphrase::Paraphrases;
 use crate::words::word_ranges;
 
 /// The text as the grammars read it: relative clauses as mere places («книгу, которая лежит на столе» is «книгу на
 /// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
 #[must_use]
 pub(crate) fn gathered(text: &str) -> Cow<'_, str> {
-    gathered_of(text).0
+    gathered_of(text, &Paraphrases::built_in()).0
 }
 
 /// The text as [`gathered`] has it, and the words that it left out because they are not meant: «не красную».
 #[must_use]
-pub(crate) fn gathered_of(text: &str) -> (Cow<'_, str>, Vec<String>) {
+pub(crate) fn gathered_of<'t>(text: &'t str, lines: &Paraphrases) -> (Cow<'t, str>, Vec<String>) {
     if is_too_long(text) {
         return (Cow::Borrowed(text), Vec::new());
     }
-    let (text, not_meant) = spoken::plain(&joined(text));
+    let (text, not_meant) = spoken::plain(&joined(text), lines);
     let text = without_relatives(&text).into_owned();
     let text = repeated(&text).into_owned();
     (Cow::Owned(joined(&text).into_owned()), not_meant)

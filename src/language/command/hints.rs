@@ -1,16 +1,23 @@
 //! What the words of a text tell of it before it is heard as a command: whether it is one, and when it is to be done.
 
-use super::gathered::gathered;
+use super::gathered::{gathered, gathered_of};
+use super::kinds::senses;
 use super::said::Said;
 use super::vocabulary::{Link, Meaning, Role, Verb, longest};
-use super::{Misheard, Relation, is_too_long, spoken, time, verbs};
+use super::{Misheard, Relation, is_too_long, time, verbs};
+use crate::paraphrase::{Paraphrases, Stage};
 use crate::units::{OwnText, Source};
 use crate::words::{phrase_at, word_keys, word_ranges};
 
 /// A text that tells by a conjunction in which order it is to be done, in that order.
 #[must_use]
-pub fn in_time(text: &str) -> Option<String> {
-    (!is_too_long(text)).then(|| spoken::in_time(text)).flatten()
+pub fn in_time(text: &str, lines: &Paraphrases) -> Option<String> {
+    if is_too_long(text) {
+        return None;
+    }
+    let said = Said::new(text.to_owned());
+    let put = lines.ordered(text, Stage::InTime, senses).map(|(text, _)| text);
+    put.or_else(|| time::told_when(&said)).or_else(|| time::in_time(&said))
 }
 
 /// Whether a word tells what another than the robot does: «придёт».
@@ -117,8 +124,8 @@ pub(crate) fn is_haunt(text: &str) -> bool {
 
 /// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
 #[must_use]
-pub fn is_command(text: &str) -> bool {
-    let text = gathered(text);
+pub fn is_command(text: &str, lines: &Paraphrases) -> bool {
+    let (text, _) = gathered_of(text, lines);
     verbs::first(&text).is_some() || verbs::forbids(&text)
 }
 
@@ -126,7 +133,13 @@ pub fn is_command(text: &str) -> bool {
 /// "Hang the umbrella on the rack". What ends in a question mark asks.
 #[must_use]
 pub fn is_order(text: &str) -> bool {
-    let gathered = gathered(text);
+    is_order_by(text, &Paraphrases::built_in())
+}
+
+/// The same, where lines of the user's own may put it plainly.
+#[must_use]
+pub fn is_order_by(text: &str, lines: &Paraphrases) -> bool {
+    let (gathered, _) = gathered_of(text, lines);
     let verb = verbs::first(&gathered).map(|(_, verb)| verb);
     match verb {
         None | Some(Verb::Need | Verb::Report | Verb::Unable) => false,

@@ -23,17 +23,15 @@ mod clauses;
 mod correction;
 mod ellipsis;
 mod gathered;
-mod going;
 mod grammar;
 mod hints;
+mod kinds;
 mod misheard;
 mod named;
-mod quantity;
 mod roles;
 mod said;
 mod spoken;
 mod spot;
-mod states;
 mod time;
 mod verbs;
 mod vocabulary;
@@ -42,10 +40,11 @@ mod waiting;
 pub(crate) use correction::{Correction, correction, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_haunt, is_of_another, names_nothing, says_whither};
-pub use hints::{in_time, is_command, is_order, preamble, whither_alone, without_clock};
+pub use hints::{
+    in_time, is_command, is_order, is_order_by, preamble, whither_alone, without_clock,
+};
 pub use misheard::Misheard;
 pub use named::{with_names_marked, without_marks};
-pub(crate) use spoken::lost;
 pub use spot::{Pointed, pointed};
 pub(crate) use verbs::{
     Sort, clauses, forbids, is_known, link_at, link_before, opens, small_words, verbs_of,

@@ -47,7 +47,6 @@ mod one_of_two;
 mod opening;
 mod orders;
 mod outlive;
-mod paraphrase;
 mod past;
 mod premise;
 mod pronouns;
@@ -57,7 +56,6 @@ mod rephrase;
 mod resolution;
 mod respelt;
 mod rest;
-mod rule;
 mod salvage;
 mod senses;
 mod sentences;
@@ -84,7 +82,6 @@ pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, KindId, Lexicon, Meaning, Window};
 pub use memory::Memory;
 pub use orders::{Conditional, Hinged, conditional, hinged};
-pub use paraphrase::{FILES as PARAPHRASES, Paraphrases, language_of};
 pub use query::{
     Best, Claim, Courtesy, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };

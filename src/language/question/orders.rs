@@ -6,7 +6,8 @@ use super::conditions::{self, Another, IF, NOT_SO, SO, WHEN};
 use super::query::Thing;
 use super::several::sentences;
 use super::{Asker, Memory, cut_off, opening};
-use crate::command::{self, is_command, is_order};
+use crate::command::{self, is_command, is_order, is_order_by};
+use crate::paraphrase::Paraphrases;
 use crate::words::{Case, Language, is_first_person, phrase_at, word_keys, word_ranges};
 
 /// What parts the halves of a sentence.
@@ -105,7 +106,7 @@ impl Asker<'_> {
         asked.ends_with('?')
             && of_me
             && word_keys(asked).len() > 2
-            && !is_command(asked)
+            && !is_command(asked, &self.mind.paraphrases)
             && !self.orders(asked.trim_end_matches('?'))
             && !self.orders(told)
     }
@@ -124,7 +125,7 @@ impl Asker<'_> {
 
     /// Whether a text begins with a verb that orders, and not to be told something.
     fn orders(&self, text: &str) -> bool {
-        is_order(text) && !self.asks_to_tell(text)
+        is_order_by(text, &self.mind.paraphrases) && !self.asks_to_tell(text)
     }
 
     /// The sentences of a text that orders in one and asks in another, orders that follow each other as one; what
@@ -134,14 +135,14 @@ impl Asker<'_> {
         let asks = |part: &str| !self.orders(part) && part.trim_end().ends_with('?');
         let said = sentences(text);
         if !said.iter().any(|part| self.orders(part))
-            || !said.iter().any(|part| asks(part) && !is_command(part))
+            || !said.iter().any(|part| asks(part) && !is_command(part, &self.mind.paraphrases))
         {
             return None;
         }
         let mut parts: Vec<(String, bool)> = Vec::new();
         let mut open = false;
         for part in said {
-            let question = asks(part) && !is_command(part);
+            let question = asks(part) && !is_command(part, &self.mind.paraphrases);
             match parts.last_mut() {
                 Some((before, was)) if open || (!*was && !question) => {
                     *before = format!("{before} {part}");
@@ -446,7 +447,7 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         let (about, otherwise, also) = (None, None, None);
         return Some(Conditional { first, about, question, then, otherwise, also, waits });
     }
-    let gathered = command::in_time(text);
+    let gathered = command::in_time(text, &Paraphrases::built_in());
     let awaited = || (0..keys.len()).filter(|_| gathered.is_none()).find(|&n| event(n).is_some());
     let waits = condition.is_none();
     let at = condition.or_else(awaited)?;

@@ -1,14 +1,17 @@
 //! Constructions that are put plainly by more than their words in order: by numbers, or by what is a name. What a pattern
-//! tells is a line of `paraphrases.lang` (see [`super::paraphrase`]).
+//! tells is a line of `paraphrases.lang` (see [`crate::paraphrase`]).
 //!
 //! Invariant: what is put in means the same, and names nothing that was not named.
 
 use std::borrow::Cow;
 
 use super::mark::Mark;
-use super::rule::{Rule, Words};
 use super::vocabulary;
+use crate::paraphrase::Words;
 use crate::words::Language;
+
+/// Puts a text plainly, where it is of the rule's construction.
+type Rule = fn(&Words<'_>) -> Option<String>;
 
 /// A text with these constructions put plainly: each rule once, in this order.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {

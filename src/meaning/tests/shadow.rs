@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use orthoframe_exchange::{Options, read};
 use orthoframe_facts::{Computed, Limits, Value};
 use orthoframe_language::Language;
+use orthoframe_language::paraphrase::Paraphrases;
 use orthoframe_language::question::{
-    Answer as Old, Asker, Lexicon, Memory, Mind, News, Paraphrases, Past, Said, Senses, Sighting,
-    Thing, Unanswered, Way,
+    Answer as Old, Asker, Lexicon, Memory, Mind, News, Past, Said, Senses, Sighting, Thing,
+    Unanswered, Way,
 };
 use orthoframe_language::report::Detail;
 use orthoframe_map::World;
-use orthoframe_meaning::{Answer, FILES, Form, Found, Grammar, Map, MapWords, NoAnswer, Outcome};
+use orthoframe_meaning::{Answer, Form, Found, Grammar, Map, MapWords, NoAnswer, Outcome, files};
 use orthoframe_semantics::{Around, RelationRules, Relations, derive, on_demand};
 use orthoframe_units::{MapId, Pose, ReplicaId, Source};
 
@@ -128,7 +129,7 @@ fn grammar() -> Grammar {
     let read = |name| {
         Source::read(&root().join("rules/language").join(name)).expect("part of the project")
     };
-    let files: Vec<(&str, Source)> = FILES.iter().map(|(name, _)| (*name, read(name))).collect();
+    let files: Vec<(&str, Source)> = files().map(|(name, _)| (name, read(name))).collect();
     let (grammar, faults) = Grammar::of(&files);
     assert!(faults.is_none(), "{faults:#?}");
     grammar

@@ -17,8 +17,9 @@ pub(super) use walls::{Held, Kept};
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};
-use super::{Memory, Paraphrases, Senses};
+use super::{Memory, Senses};
 use crate::map::{DoorKind, Entity, World};
+use crate::paraphrase::Paraphrases;
 use crate::semantics::{Around, Relations, Subject};
 use crate::units::{AreaId, InOrder as _, OpeningId, Point, ReplicaId, TypeId};
 use crate::words::Language;

@@ -34,6 +34,7 @@ use super::query::{Head, Rel, Restriction, Thing};
 use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
 use crate::map::Entity;
+use crate::paraphrase::lost;
 use crate::units::{AreaId, InOrder as _};
 use crate::words::{Case, NounPhrase, enumerate, word_keys, word_ranges};
 
@@ -80,7 +81,9 @@ impl Asker<'_> {
         let resolved = self.resolved(text, memory, strict);
         if resolved.is_err() {
             let waiting = memory.waiting.as_ref().map(|waiting| waiting.text.clone());
-            let text = waiting.unwrap_or_else(|| self.plain(&command::gathered(text)));
+            let text = waiting.unwrap_or_else(|| {
+                self.plain(&command::gathered_of(text, &self.mind.paraphrases).0)
+            });
             self.leave_open(&text, memory);
         }
         resolved
@@ -96,7 +99,7 @@ impl Asker<'_> {
         if command::is_too_long(text) {
             return Ok(Resolved { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
-        let (gathered, not_meant) = command::gathered_of(text);
+        let (gathered, not_meant) = command::gathered_of(text, &self.mind.paraphrases);
         let language = crate::words::Language::of(text);
         let misread = |doubt: Doubt| {
             Misread(Box::new(self.knowledge(language, &Memory::default()).unanswered(doubt)))
@@ -130,7 +133,7 @@ impl Asker<'_> {
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let Used { text, at: used, heads } = self.with_use(text, language).map_err(misread)?;
-        let numbers = command::lost(&said, &word_keys(&text)).into_iter();
+        let numbers = lost(&said, &word_keys(&text)).into_iter();
         if let Some(number) = numbers.into_iter().find(|key| key.chars().all(char::is_numeric)) {
             return Err(misread(Doubt::not_understood(&number)));
         }
@@ -229,8 +232,8 @@ impl Asker<'_> {
     /// is called may have become a verb: "make sure that it is closed".
     fn dropped(&self, text: &str, gathered: &str, not_meant: &[String]) -> Option<String> {
         let said = word_keys(text);
-        let lost = command::lost(&said, &word_keys(gathered));
-        let lost = command::lost(&lost, not_meant);
+        let gone = lost(&said, &word_keys(gathered));
+        let lost = lost(&gone, not_meant);
         if lost.is_empty() {
             return None;
         }

@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use super::pattern::{Part, Pattern, Run, Word};
-use super::row::{Paraphrase, Put, Sets};
+use super::row::{Paraphrase, Put, Sets, Stage};
+use super::words::Kind;
 use crate::scan::{Scanner, Unread};
 use crate::units::Bilingual;
-use crate::words::{Case, word_keys};
+use crate::words::{Case, Language, word_keys};
 
 type Parsed<T> = Result<T, Unread>;
 
@@ -14,8 +15,12 @@ type Parsed<T> = Result<T, Unread>;
 const OPEN: &str = "…";
 
 /// Words that several statements have in common, with their name.
-pub(super) fn set(scan: Scanner<'_>, sets: &Sets) -> Parsed<(String, Vec<Run>)> {
-    let mut reader = Reader { scan, names: Vec::new(), sets };
+pub(super) fn set(
+    scan: Scanner<'_>,
+    sets: &Sets,
+    language: Language,
+) -> Parsed<(String, Vec<Run>)> {
+    let mut reader = Reader { scan, names: Vec::new(), sets, language };
     let Some((name, _)) = reader.name() else {
         return reader.scan.wants(("имя с латинской прописной", "a name in Latin capitals"));
     };
@@ -25,8 +30,8 @@ pub(super) fn set(scan: Scanner<'_>, sets: &Sets) -> Parsed<(String, Vec<Run>)> 
     Ok((name.to_owned(), runs))
 }
 
-pub(super) fn paraphrase(scan: Scanner<'_>, sets: &Sets) -> Parsed<Paraphrase> {
-    let mut reader = Reader { scan, names: Vec::new(), sets };
+pub(super) fn paraphrase(scan: Scanner<'_>, sets: &Sets, language: Language) -> Parsed<Paraphrase> {
+    let mut reader = Reader { scan, names: Vec::new(), sets, language };
     let pattern = reader.pattern()?;
     reader.scan.needs("=", ("«=», слово или пропуск", "“=”, a word or a gap"))?;
     let open = |is_open| match is_open {
@@ -36,27 +41,39 @@ pub(super) fn paraphrase(scan: Scanner<'_>, sets: &Sets) -> Parsed<Paraphrase> {
     if reader.scan.takes(OPEN) != pattern.is_open.0 {
         return reader.scan.wants(open(pattern.is_open.0));
     }
-    let plain = reader.plain(&pattern)?;
+    let (plain, used) = reader.plain(&pattern)?;
     let asks = reader.scan.takes("?");
     if !asks && reader.scan.takes(OPEN) != pattern.is_open.1 {
         return reader.scan.wants(open(pattern.is_open.1));
     }
     let (mut only, mut unless) = (Vec::new(), Vec::new());
+    let (mut drops, mut stage) = (false, Stage::Late);
+    let mut told = used;
     if reader.scan.takes("{") {
         loop {
             if reader.scan.takes("unless ") {
                 unless.extend(reader.runs()?);
             } else if reader.scan.takes("if ") {
                 only.extend(reader.runs()?);
+            } else if reader.scan.takes("early") {
+                stage = Stage::Early;
+            } else if reader.scan.takes("in time") {
+                stage = Stage::InTime;
+            } else if reader.scan.takes("drops") {
+                drops = true;
+                told.extend(reader.parts_named()?);
+            } else if reader.scan.takes("skips ") {
+                told.extend(reader.parts_named()?);
             } else if reader.scan.takes("}") {
                 break;
             } else {
-                return reader.scan.wants(("«if», «unless» или «}»", "“if”, “unless” or “}”"));
+                return reader.scan.wants(("условие или «}»", "a condition, or “}”"));
             }
         }
     }
     reader.scan.ends()?;
-    Ok(Paraphrase { pattern, only, unless, plain, asks })
+    reader.all_told(&told)?;
+    Ok(Paraphrase { pattern, only, unless, plain, asks, drops, is_order: false, stage })
 }
 
 struct Reader<'t> {
@@ -64,14 +81,15 @@ struct Reader<'t> {
     /// The parts that have a name, with its place.
     names: Vec<(&'t str, Range<usize>, usize)>,
     sets: &'t Sets,
+    language: Language,
 }
 
 fn is_of_word(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '\'' | '’' | '-' | '*')
 }
 
-/// Marks that conditions may have.
-const MARKS: [char; 4] = [',', '.', ':', ';'];
+/// Marks that conditions may have; in a pattern «,» is any that parts.
+const MARKS: [char; 5] = [',', '.', ':', ';', '?'];
 
 /// A gap or words that are kept have a name of Latin capitals.
 fn is_name(word: &str) -> bool {
@@ -114,6 +132,9 @@ impl<'t> Reader<'t> {
             true => {
                 let choices = self.runs()?;
                 self.scan.needs(")", ("«)» или «|»", "“)” or “|”"))?;
+                if self.scan.takes("*") {
+                    return Ok(Part::Repeated { choices });
+                }
                 choices
             }
             false => self.alternative()?,
@@ -129,6 +150,7 @@ impl<'t> Reader<'t> {
     /// How many words fill a gap, and which do not stand in it.
     fn gap(&mut self) -> Parsed<Part> {
         let (mut least, mut most, mut without) = (1, usize::MAX, Vec::new());
+        let mut is_clause = false;
         if self.scan.takes("{") {
             if let Some(number) = self.number()? {
                 (least, most) = (number, number);
@@ -136,12 +158,13 @@ impl<'t> Reader<'t> {
                     most = self.number()?.unwrap_or(usize::MAX);
                 }
             }
+            is_clause = self.scan.takes("clause");
             if self.scan.takes("not ") {
                 without = self.runs()?;
             }
             self.scan.needs("}", ("число, «not» или «}»", "a number, “not” or “}”"))?;
         }
-        Ok(Part::Gap { least, most, without })
+        Ok(Part::Gap { least, most, without, is_clause })
     }
 
     fn number(&mut self) -> Parsed<Option<usize>> {
@@ -157,7 +180,8 @@ impl<'t> Reader<'t> {
         loop {
             let first = runs.len();
             runs.extend(self.alternative()?);
-            while self.scan.rest().starts_with(|c| is_of_word(c) || MARKS.contains(&c)) {
+            while self.scan.rest().starts_with(|c| is_of_word(c) || MARKS.contains(&c) || c == '<')
+            {
                 let word = self.word()?;
                 runs[first..].iter_mut().for_each(|run| run.extend(word.clone()));
             }
@@ -186,6 +210,12 @@ impl<'t> Reader<'t> {
         if let Some((mark, _)) = self.scan.run(|c| MARKS.contains(&c)) {
             return Ok(vec![Word::Mark(mark.to_owned())]);
         }
+        if self.scan.takes("~") {
+            return Ok(vec![Word::Unparted]);
+        }
+        if self.scan.takes("<") {
+            return Ok(vec![self.kind()?]);
+        }
         let Some((word, _)) = self.scan.run(is_of_word) else { return self.scan.wants(EXPECTED) };
         let mut keys = word_keys(word);
         let key = |keys: &mut Vec<String>| keys.pop().unwrap_or_default();
@@ -197,7 +227,59 @@ impl<'t> Reader<'t> {
         })
     }
 
-    fn plain(&mut self, pattern: &Pattern) -> Parsed<Vec<Put>> {
+    /// «go>»: what a word does in an order.
+    fn kind(&mut self) -> Parsed<Word> {
+        let start = self.scan.at;
+        let name = self.scan.run(char::is_alphabetic).map(|(name, _)| name);
+        let Some((_, kind)) = Kind::NAMED.iter().find(|(known, _)| Some(*known) == name) else {
+            self.scan.at = start;
+            let all: Vec<&str> = Kind::NAMED.iter().map(|(name, _)| *name).collect();
+            return self.scan.wants(Bilingual::new(
+                format!("что слово делает: {}", all.join(", ")),
+                format!("what a word does: {}", all.join(", ")),
+            ));
+        };
+        self.scan.needs(">", ("«>»", "“>”"))?;
+        Ok(Word::Kind(*kind, self.language))
+    }
+
+    /// The parts of some names of the left side.
+    fn parts_named(&mut self) -> Parsed<Vec<usize>> {
+        let mut parts = Vec::new();
+        while let Some((name, at)) = self.name() {
+            parts.push(self.part_named(name, &at)?);
+        }
+        Ok(parts)
+    }
+
+    fn part_named(&mut self, name: &str, at: &Range<usize>) -> Parsed<usize> {
+        if let Some((_, _, part)) = self.names.iter().find(|(own, ..)| *own == name) {
+            return Ok(*part);
+        }
+        self.scan.at = at.start;
+        let all: Vec<&str> = self.names.iter().map(|(name, ..)| *name).collect();
+        self.scan.wants(Bilingual::new(
+            format!("имя из левой части: {}", all.join(", ")),
+            format!("a name of the left side: {}", all.join(", ")),
+        ))
+    }
+
+    /// That nothing which was named is lost.
+    fn all_told(&self, told: &[usize]) -> Parsed<()> {
+        match self.names.iter().find(|(_, _, part)| !told.contains(part)) {
+            Some((name, at, _)) => Err(Unread {
+                expected: Bilingual::new(
+                    format!("имя, которое стоит и справа: «{name}» пропало бы"),
+                    format!("a name that stands on the right too: “{name}” would be lost"),
+                ),
+                at: at.clone(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// What is put, and the parts that stand in it.
+    fn plain(&mut self, pattern: &Pattern) -> Parsed<(Vec<Put>, Vec<usize>)> {
         let mut plain = Vec::new();
         let mut used = Vec::new();
         while !self.scan.rest().is_empty() && !self.scan.rest().starts_with(['…', '{', '?']) {
@@ -209,15 +291,7 @@ impl<'t> Reader<'t> {
                 }));
                 continue;
             };
-            let Some((_, _, part)) = self.names.iter().find(|(own, ..)| *own == name).cloned()
-            else {
-                self.scan.at = at.start;
-                let all: Vec<&str> = self.names.iter().map(|(name, ..)| *name).collect();
-                return self.scan.wants(Bilingual::new(
-                    format!("имя из левой части: {}", all.join(", ")),
-                    format!("a name of the left side: {}", all.join(", ")),
-                ));
-            };
+            let part = self.part_named(name, &at)?;
             used.push(part);
             plain.push(if self.scan.takes(":") {
                 self.choice(part, &pattern.parts[part])?
@@ -225,16 +299,7 @@ impl<'t> Reader<'t> {
                 Put::Taken(part, self.case()?)
             });
         }
-        if let Some((name, at, _)) = self.names.iter().find(|(_, _, part)| !used.contains(part)) {
-            return Err(Unread {
-                expected: Bilingual::new(
-                    format!("имя, которое стоит и справа: «{name}» пропало бы"),
-                    format!("a name that stands on the right too: “{name}” would be lost"),
-                ),
-                at: at.clone(),
-            });
-        }
-        Ok(plain)
+        Ok((plain, used))
     }
 
     /// For each choice of a part what is put for it.

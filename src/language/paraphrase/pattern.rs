@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::question::rule::Words;
+use super::words::{Kind, Words};
+use crate::words::Language;
 
 /// One word of a pattern: all of it, or its beginning or end, where the rest is carried over.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -10,18 +11,30 @@ pub(super) enum Word {
     Whole(String),
     Begins(String),
     Ends(String),
-    /// A punctuation mark, which only conditions have.
+    /// What a phrase does in an order, of the language of the file.
+    Kind(Kind, Language),
+    /// A place before which a mark stands, or where the text begins or ends; in a condition, a mark anywhere.
     Mark(String),
+    /// A place before which no mark stands.
+    Unparted,
 }
 
 impl Word {
-    /// What the word has beside the part that the pattern tells; none where it is another.
-    fn rest<'k>(&self, key: &'k str) -> Option<&'k str> {
+    /// How many words it takes at a place, and what these have beside the part that the pattern tells; none where
+    /// another stands.
+    fn at<'w>(&self, words: &'w Words<'_>, at: usize) -> Option<(usize, &'w str)> {
+        let key = || words.keys.get(at).map(String::as_str);
         match self {
-            Self::Whole(word) => (word == key).then_some(""),
-            Self::Begins(stem) => key.strip_prefix(stem.as_str()),
-            Self::Ends(end) => key.strip_suffix(end.as_str()),
-            Self::Mark(_) => None,
+            Self::Whole(word) => (word == key()?).then_some((1, "")),
+            Self::Begins(stem) => Some((1, key()?.strip_prefix(stem.as_str())?)),
+            Self::Ends(end) => Some((1, key()?.strip_suffix(end.as_str())?)),
+            Self::Kind(kind, language) => {
+                let sense = words.senses.get(at)?;
+                let is_it = sense.kinds.contains(kind) && Language::of(key()?) == *language;
+                is_it.then_some((sense.length, ""))
+            }
+            Self::Mark(_) => words.parted(at).then_some((0, "")),
+            Self::Unparted => (!words.parted(at)).then_some((0, "")),
         }
     }
 }
@@ -33,8 +46,10 @@ pub(super) type Run = Vec<Word>;
 pub(super) enum Part {
     /// One of these runs of words.
     Words { choices: Vec<Run>, optional: bool },
-    /// Any words, so many, among which none of these stand.
-    Gap { least: usize, most: usize, without: Vec<Run> },
+    /// So many of these runs of words one behind the other as there are, which may be none.
+    Repeated { choices: Vec<Run> },
+    /// Any words, so many, among which none of these stand, nor a mark where they are of one clause.
+    Gap { least: usize, most: usize, without: Vec<Run>, is_clause: bool },
 }
 
 /// What a part was filled with.
@@ -53,10 +68,12 @@ pub(super) struct Pattern {
     pub(super) parts: Vec<Part>,
 }
 
-/// The rest of the words, where a run stands at a place.
-fn run_at(run: &Run, keys: &[String], at: usize) -> Option<String> {
-    let said = keys.get(at..at + run.len())?;
-    run.iter().zip(said).map(|(word, key)| word.rest(key)).collect()
+/// Where a run ends that stands at a place, and the rest of its words.
+fn run_at(run: &Run, words: &Words<'_>, at: usize) -> Option<(usize, String)> {
+    run.iter().try_fold((at, String::new()), |(at, rests), word| {
+        let (length, rest) = word.at(words, at)?;
+        Some((at + length, rests + rest))
+    })
 }
 
 /// Whether a run, or a punctuation mark, stands among some words.
@@ -66,7 +83,11 @@ pub(super) fn stands_among(run: &Run, words: &Words<'_>, among: &Range<usize>) -
         let to = words.at.get(among.end).map_or(words.text.len(), |after| after.start);
         return words.text[from..to].contains(mark.as_str());
     }
-    among.clone().any(|at| at + run.len() <= among.end && run_at(run, &words.keys, at).is_some())
+    // A phrase of some kind may go on behind them.
+    let is_kind = matches!(run[..], [Word::Kind(..)]);
+    among
+        .clone()
+        .any(|at| run_at(run, words, at).is_some_and(|(end, _)| is_kind || end <= among.end))
 }
 
 impl Part {
@@ -79,17 +100,29 @@ impl Part {
                     .iter()
                     .enumerate()
                     .filter_map(|(choice, run)| {
-                        let rest = run_at(run, &words.keys, at)?;
-                        Some(taken(at..at + run.len(), choice, rest))
+                        let (end, rest) = run_at(run, words, at)?;
+                        Some(taken(at..end, choice, rest))
                     })
                     .collect();
                 found.extend(optional.then(|| taken(at..at, 0, String::new())));
                 found
             }
-            Self::Gap { least, most, without } => {
-                let longest = (words.keys.len() - at).min(*most);
+            Self::Repeated { choices } => {
+                let mut ends = vec![at];
+                let next = |at| choices.iter().find_map(|run| Some(run_at(run, words, at)?.0));
+                let mut end = at;
+                while let Some(further) = next(end).filter(|further| *further > end) {
+                    ends.push(further);
+                    end = further;
+                }
+                ends.into_iter().rev().map(|end| taken(at..end, 0, String::new())).collect()
+            }
+            Self::Gap { least, most, without, is_clause } => {
+                let longest = words.keys.len().saturating_sub(at).min(*most);
                 let keeps = |length: &usize| {
-                    !without.iter().any(|run| stands_among(run, words, &(at..at + length)))
+                    let parted = || (at + 1..at + length).any(|n| words.parted(n));
+                    !(*is_clause && parted())
+                        && !without.iter().any(|run| stands_among(run, words, &(at..at + length)))
                 };
                 let lengths = (*least..=longest).take_while(keeps);
                 lengths.map(|length| taken(at..at + length, 0, String::new())).collect()
@@ -139,7 +172,8 @@ impl Search<'_> {
         let Some(next) = self.pattern.parts.get(part) else {
             return self.pattern.is_open.1 || at == length;
         };
-        let place = part * (length + 1) + at;
+        // A phrase of some kind may take more words than there are.
+        let place = part * (length + 1) + at.min(length);
         if self.failed[place] {
             return false;
         }

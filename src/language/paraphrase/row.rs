@@ -3,11 +3,21 @@
 use std::collections::HashMap;
 
 use super::pattern::{Pattern, Run, Taken, stands_among};
-use crate::question::rule::Words;
+use super::words::Words;
 use crate::words::{Case, NounPhrase, WordHints};
 
 /// Words in common, by their names.
 pub(super) type Sets = HashMap<String, Vec<Run>>;
+
+/// When a line about orders has its turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Before it is put into the order of time what is to be done.
+    InTime,
+    /// Before what a clause leaves out is said again.
+    Early,
+    Late,
+}
 
 /// Another way to say something.
 #[derive(Debug)]
@@ -19,6 +29,10 @@ pub(super) struct Paraphrase {
     pub(super) plain: Vec<Put>,
     /// Whether a question mark ends it.
     pub(super) asks: bool,
+    /// Whether what it leaves out is said not to be meant.
+    pub(super) drops: bool,
+    pub(super) is_order: bool,
+    pub(super) stage: Stage,
 }
 
 /// What is put in place of a pattern.
@@ -55,6 +69,24 @@ impl Paraphrase {
         Some(format!("{before}{core}{behind}"))
     }
 
+    /// What stands between two things that are put, the first of which ends before a word and the second begins at one:
+    /// what stood between where they were said side by side; beside a word of its own, a mark that parts the clauses of
+    /// an order.
+    fn between<'t>(&self, words: &Words<'t>, end: Option<usize>, next: Option<usize>) -> &'t str {
+        let place = match (end, next) {
+            (Some(end), Some(next)) => (end == next).then_some(end),
+            (Some(own), None) | (None, Some(own)) => {
+                (self.is_order && words.parted(own)).then_some(own)
+            }
+            (None, None) => None,
+        };
+        let gap = place.and_then(|n| {
+            let (one, other) = (words.at.get(n.checked_sub(1)?)?, words.at.get(n)?);
+            Some(&words.text[one.end..other.start])
+        });
+        gap.unwrap_or(" ")
+    }
+
     fn core(&self, words: &Words<'_>, taken: &[Taken]) -> String {
         let mut core = String::new();
         let mut end: Option<usize> = None;
@@ -83,13 +115,8 @@ impl Paraphrase {
                 continue;
             }
             if !core.is_empty() && text != "," {
-                // What was said side by side keeps what stood between.
-                core.push_str(match (end, &place) {
-                    (Some(end), Some(next)) if end == next.start => {
-                        &words.text[words.at[end - 1].end..words.at[end].start]
-                    }
-                    _ => " ",
-                });
+                let next = place.as_ref().map(|next| next.start).filter(|_| !core.ends_with(','));
+                core.push_str(self.between(words, end, next));
             }
             core.push_str(&text);
             end = place.map(|place| place.end);

@@ -20,22 +20,26 @@
 mod pattern;
 mod read;
 mod row;
+mod words;
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-use super::rule::Words;
 use crate::scan::{Scanner, Unread, statements};
 use crate::units::{Carried, InOrder as _, carried};
-use crate::words::Language;
+use crate::words::{Language, word_keys};
+pub(crate) use row::Stage;
 use row::{Paraphrase, Sets};
+pub(crate) use words::{Kind, Sense, Words, lost};
 
 /// The built-in files, by their paths within `rules/language`.
-pub static FILES: [(&str, Carried); 2] = [
-    ("ru/paraphrases.lang", carried!("../../../../rules/language/ru/paraphrases.lang")),
-    ("en/paraphrases.lang", carried!("../../../../rules/language/en/paraphrases.lang")),
+pub static FILES: [(&str, Carried); 4] = [
+    ("ru/orders.lang", carried!("../../../rules/language/ru/orders.lang")),
+    ("en/orders.lang", carried!("../../../rules/language/en/orders.lang")),
+    ("ru/paraphrases.lang", carried!("../../../rules/language/ru/paraphrases.lang")),
+    ("en/paraphrases.lang", carried!("../../../rules/language/en/paraphrases.lang")),
 ];
 
 /// The paraphrases of each language.
@@ -43,7 +47,12 @@ pub static FILES: [(&str, Carried); 2] = [
 pub struct Paraphrases {
     russian: Rows,
     english: Rows,
+    /// Of orders, of each stage, in either language: their words and names may be of both.
+    orders: [Rows; 3],
 }
+
+/// An order as it is put plainly, and the words that were left out because they are not meant.
+pub(crate) type Ordered = (String, Vec<String>);
 
 #[derive(Debug, Default)]
 struct Rows {
@@ -80,6 +89,12 @@ impl Rows {
         found.order();
         found.dedup();
         found
+    }
+
+    /// The first that puts a text plainly, from one on, and what it puts.
+    fn first(&self, words: &Words<'_>, from: usize) -> Option<(usize, String)> {
+        let may_be = self.may_be(words, from);
+        may_be.into_iter().find_map(|at| Some((at, self.all[at].put(words)?)))
     }
 }
 
@@ -120,28 +135,63 @@ impl Paraphrases {
         };
         let mut scan = Scanner::of(text, statement);
         if scan.takes("set ") {
-            let (name, words) = read::set(scan, &rows.sets)?;
+            let (name, words) = read::set(scan, &rows.sets, language)?;
             rows.sets.insert(name, words);
             return Ok(());
         }
-        scan.needs("same ", ("«same» или «set»", "“same” or “set”"))?;
-        let row = read::paraphrase(scan, &rows.sets)?;
-        rows.add(row);
+        let orders = scan.takes("ordered ");
+        if !orders {
+            scan.needs("same ", ("«same», «ordered» или «set»", "“same”, “ordered” or “set”"))?;
+        }
+        let mut row = read::paraphrase(scan, &rows.sets, language)?;
+        row.is_order = orders;
+        match orders {
+            true => self.orders[row.stage as usize].add(row),
+            false => rows.add(row),
+        }
         Ok(())
     }
 
+    /// An order in the words that are meant, by the lines of a stage; none where these change nothing. A line is tried while it changes something, as a sentence may have several of one construction.
+    pub(crate) fn ordered(
+        &self,
+        text: &str,
+        stage: Stage,
+        senses: fn(&Words<'_>) -> Vec<Sense>,
+    ) -> Option<Ordered> {
+        /// No sentence has more of one construction.
+        const MOST: usize = 4;
+        let rows = &self.orders[stage as usize];
+        let mut plain: Option<String> = None;
+        let mut not_meant = Vec::new();
+        let (mut from, mut times) = (0, 0);
+        loop {
+            let mut words = Words::of(plain.as_deref().unwrap_or(text))?;
+            words.senses = senses(&words);
+            let Some((at, put)) = rows.first(&words, from) else { break };
+            times = if at == from { times + 1 } else { 1 };
+            if rows.all[at].drops {
+                not_meant.extend(lost(&words.keys, &word_keys(&put)));
+            }
+            if times == MOST || put == words.text {
+                (from, times) = (at + 1, 0);
+            } else {
+                from = at;
+            }
+            plain = Some(put);
+        }
+        plain.map(|plain| (plain, not_meant))
+    }
+
     /// A text in the words that are meant.
-    pub(super) fn plain<'t>(&self, text: &'t str) -> Cow<'t, str> {
+    pub(crate) fn plain<'t>(&self, text: &'t str) -> Cow<'t, str> {
         let rows = match Language::of(text) {
             Language::Russian => &self.russian,
             Language::English => &self.english,
         };
         let (mut plain, mut from) = (Cow::Borrowed(text), 0);
         while let Some(words) = Words::of(&plain)
-            && let Some((at, put)) = rows
-                .may_be(&words, from)
-                .into_iter()
-                .find_map(|at| Some((at, rows.all[at].put(&words)?)))
+            && let Some((at, put)) = rows.first(&words, from)
         {
             from = at + 1;
             plain = Cow::Owned(put);
@@ -266,7 +316,7 @@ mod tests {
             11:6 a word that is required
             12:19 a case: nom, gen, dat, acc, ins or loc
             13:7 a word, or a name of a line “set”
-            14:21 “if”, “unless” or “}”
+            14:21 a condition, or “}”
             15:12 another name"#]]
         .assert_eq(&places.join("\n"));
     }
