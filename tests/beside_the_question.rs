@@ -236,6 +236,7 @@ fn what_is_left_unsaid_makes_no_other_question() {
         ("Got a fork or a spoon?", "Is there a fork or a spoon?"),
         ("Got a fork around?", "Is there a fork?"),
         ("I need to write something down, got a pen around?", "Is there a pen?"),
+        ("I need something to write with, got a fork or a spoon?", "Is there a fork or a spoon?"),
         ("What does the fridge have?", "What is in the fridge?"),
         ("What has the fridge got?", "What is in the fridge?"),
         (

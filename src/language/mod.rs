@@ -39,8 +39,8 @@
 //!   `level_words`. `each` tells of every room by itself and `part` of legs and shelves; walls and corners,
 //!   which have no names, are measured (`knowledge/walls`), and told by what opens in them.
 //! - *Commands.* Whether a text orders, and when, is told by its words alone (`command/hints`), and so is how
-//!   it is put into plain orders (`command/spoken`; `ellipsis`: what the clause before has said, `going`,
-//!   `quantity`, `time`); an order under a condition is parted from it (`question/orders`). Then it is resolved
+//!   it is put into plain orders (`paraphrase`, by the lines of the language files; `command/spoken`, `time`;
+//!   `ellipsis`: what the clause before has said); an order under a condition is parted from it (`question/orders`). Then it is resolved
 //!   (`question/resolution`): orders without a verb and amendments become whole ones (`terse`), descriptions become
 //!   names by the grammar of questions, and `command` reads verbs, roles and names only. Nothing that was said
 //!   is passed over: a rewriting loses no name, number or value but what is said not to be meant

@@ -231,8 +231,10 @@ impl Knowledge<'_> {
             self.several_hold(&found, &failed, claims)
         } else {
             let thing = found[0];
-            let parts: Vec<String> =
+            let mut parts: Vec<String> =
                 claims.iter().map(|c| self.claim_words(thing, c)).collect::<Result<_, _>>()?;
+            // «Телевизор работает, включён?» asks one thing.
+            parts.dedup();
             format!("{} {}", self.name(thing), enumerate(&parts, self.language))
         };
         // That all are so is known where it is known of all.

@@ -291,9 +291,13 @@ impl<'t> Sentence<'t> {
     fn fill_unsaid(&mut self) {
         let said = |key: &str, t: &Token| t.to - t.from == 1 && self.keys[t.from as usize] == key;
         let small = |t: &Token| t.kind == Tok::Mark(Mark::Filler);
-        let first = self.tokens.iter().position(|t| !small(t)).filter(|&first| {
-            self.tokens[first].kind == Tok::Mark(Mark::Have) && said("got", &self.tokens[first])
-        });
+        let got = |t: &Token| t.kind == Tok::Mark(Mark::Have) && said("got", t);
+        // "I need to write something down, got a pen?"
+        let begins = |&n: &usize| {
+            let word = self.tokens[n].from as usize;
+            self.tokens[..n].iter().all(small) || self.comma_between(word, word)
+        };
+        let first = (0..self.tokens.len()).filter(|&n| got(&self.tokens[n])).find(begins);
         let idle = self.tokens.last().is_some_and(|t| {
             said("around", t) && self.tokens.len() > 1 && matches!(t.kind, Tok::Mark(Mark::Link(_)))
         });
