@@ -44,6 +44,32 @@ fn a_line_of_the_users_own_is_another_way_to_ask() {
     assert!(ask(&without, "Где тусуется Холодильник-1?").is_err());
 }
 
+/// "Whisk the medicine over" is "bring the medicine" to whom the file says so; without it no such order is heard.
+#[test]
+fn an_order_may_be_said_in_words_of_the_users_own() {
+    let own = "set Whisk = whisk | conjure\nordered … (Whisk) X{clause} over … = … bring X …\n";
+    let engine = with_own("en/own.lang", own).unwrap();
+    let without = Engine::in_memory(rb2(), None).unwrap();
+    let goal = |engine: &Engine, order: &str| {
+        let copy = engine.perform(order, &mut |_| {});
+        copy.ok().map(|answer| answer.goal)
+    };
+    let mut ordered = 0;
+    for thing in ["the medicine", "Book 4"] {
+        let plain = goal(&without, &format!("Bring {thing}"));
+        for own in ["Whisk", "please conjure"] {
+            let own = format!("{own} {thing} over");
+            assert_eq!(goal(&engine, &own), plain, "{own}");
+            assert_eq!(goal(&without, &own), None, "{own}");
+            ordered += usize::from(plain.is_some());
+        }
+    }
+    assert_eq!(ordered, 4);
+    // What an order names is never lost: a gap that goes nowhere is a fault, with its place.
+    let told = with_own("en/own.lang", "ordered whisk X over Y = bring X\n").expect_err("a fault");
+    assert!(told.contains("own.lang:1:"), "{told}");
+}
+
 /// Every fault of a file is told, with its line and column; the languages that the program does not speak have none.
 #[test]
 fn the_faults_of_the_users_lines_have_their_places() {
