@@ -120,9 +120,9 @@ impl Part {
             Self::Gap { least, most, without, is_clause } => {
                 let longest = words.keys.len().saturating_sub(at).min(*most);
                 let keeps = |length: &usize| {
-                    let parted = || (at + 1..at + length).any(|n| words.parted(n));
-                    !(*is_clause && parted())
-                        && !without.iter().any(|run| stands_among(run, words, &(at..at + length)))
+                    let is_parted = *is_clause && (at + 1..at + length).any(|n| words.parted(n));
+                    let has = |run| stands_among(run, words, &(at..at + length));
+                    !is_parted && !without.iter().any(has)
                 };
                 let lengths = (*least..=longest).take_while(keeps);
                 lengths.map(|length| taken(at..at + length, 0, String::new())).collect()
