@@ -220,6 +220,9 @@ impl State {
 
     /// "Clear the sofa onto the bed": what lies on the one is put on the other, each by itself.
     fn each_cleared(&self, commands: Vec<Command<Entity>>) -> Result<Vec<Command<Entity>>, Error> {
+        if !commands.iter().any(|command| matches!(command, Command::Clear { to: Some(_), .. })) {
+            return Ok(commands);
+        }
         let around = self.around()?;
         let (world, relations) = (around.world(), around.relations()?);
         let mut told = Vec::new();

@@ -292,9 +292,8 @@ impl Asker<'_> {
     /// # Errors
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
-        let text = unaddressed(text);
         // A hyphen between blanks stands for a dash.
-        let text = text.replace(" - ", " – ");
+        let text = unaddressed(text).replace(" - ", " – ");
         let text = &*address::untagged(&text);
         if text.chars().any(char::is_alphabetic) {
             memory.language = Language::of(text);

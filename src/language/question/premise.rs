@@ -174,12 +174,14 @@ impl Asker<'_> {
         language: Language,
         memory: &mut Memory,
     ) -> Option<Answer> {
+        if text.contains('?') {
+            return None;
+        }
         let beside = || {
             let (place, rest) = self.stay_and_rest(text)?;
             self.only_complains(rest).then_some(place)
         };
-        let place = self.stay(text).or_else(beside);
-        let place = place.filter(|_| !text.contains('?'))?;
+        let place = self.stay(text).or_else(beside)?;
         let found = self.knowledge(language, memory).find(&place, true).ok()?;
         let [only] = found[..] else { return None };
         self.hear_of_place(&place, memory);
