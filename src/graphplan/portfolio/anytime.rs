@@ -25,6 +25,11 @@ const ERRAND_EFFORT: u64 = 1 << 22;
 /// After so many rounds nothing but the proof itself is left to be sought.
 const ROUNDS: u32 = 24;
 
+/// A search for a plan, a proof, and a piece of a plan, which is small or better left alone, take these parts of the memory.
+const SEARCH_OF_MEMORY: usize = 4;
+const PROOF_OF_MEMORY: usize = 6;
+const PIECE_OF_MEMORY: usize = 16;
+
 struct Best<'a> {
     task: &'a Task,
     limits: &'a Limits,
@@ -122,7 +127,9 @@ fn soon(task: &Task, learned: Option<&Learned>, limits: &Limits) -> (Outcome, Op
 
 fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
     let (task, limits) = (best.task, best.limits);
-    let some = Limits { memory_bytes: limits.memory_bytes / 4, ..limits.clone() };
+    let part = |of: usize| Limits { memory_bytes: limits.memory_bytes / of, ..limits.clone() };
+    let (some, proof, piece) =
+        (part(SEARCH_OF_MEMORY), part(PROOF_OF_MEMORY), part(PIECE_OF_MEMORY));
     // What can be seen at once is told at once: forward search may take long for its first plan.
     best.raise(super::steps_at_least(task));
     let errands = Errands::of(task);
@@ -157,7 +164,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             let own = |stage: &Vec<FactId>| stage.iter().map(|&fact| working.fact(fact)).collect();
             let stages: Option<Vec<Vec<FactId>>> = errands.stages.iter().map(own).collect();
             current.extend(stages.and_then(|stages| {
-                shorten::one_by_one(working.task(), &stages, ERRAND_EFFORT, limits)
+                shorten::one_by_one(working.task(), &stages, ERRAND_EFFORT, &piece)
             }));
         }
         // A day of errands is in order already; any other plan may be as good as the first.
@@ -186,7 +193,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
         if round > 0 && limits.effort.is_some_and(|most| spent > most) {
             return Ok(None);
         }
-        let within = Limits { tell: None, shorten: u64::MAX, ..limits.clone() };
+        let within = Limits { tell: None, shorten: u64::MAX, ..piece.clone() };
         // What was found soon may be far from the best that is found step by step.
         if let Some(search) = &mut anew {
             let known = best.plan.as_ref().map_or(usize::MAX, Plan::action_count);
@@ -219,7 +226,7 @@ fn run(best: &mut Best<'_>) -> Result<Option<Outcome>, Limit> {
             break;
         }
         limits.check(0)?;
-        let tried = is_provable.then(|| prove(working.task(), best.ceiling(), effort, &some));
+        let tried = is_provable.then(|| prove(working.task(), best.ceiling(), effort, &proof));
         match tried {
             Some(Tried::Plan(plan)) => {
                 let plan = working.own(plan);

@@ -1,23 +1,48 @@
 //! What of a task a short piece of a plan can use at all: a task with few operators is made ready and searched in no time.
 //!
 //! An operator is left out if it cannot be carried out so soon, even without delete effects, or if after it so few
-//! steps are left that it serves no goal. Every plan within so many steps, rid of what serves nothing, is kept.
+//! steps are left that it serves no goal. Every plan within so many steps, rid of what serves nothing, is kept, unless the
+//! piece is large.
 
-use super::relaxed::{Relaxed, State};
+use super::relaxed::{self, Relaxed, State};
+use crate::proof::needed::Reduced;
 use crate::strips::{FactId, OperatorId, Task};
 
-/// The operators of a piece that lie within so many steps, between a state and a goal.
+/// A piece has no more operators than these, if it can be cut down to so many.
+const FEW: usize = 1 << 10;
+
+/// What lies within so many steps between a state and a goal. Where that is much, nothing that holds at first is brought
+/// about anew: a hand that is free need not take something up to be so again. Mostly the best plan is kept then, too.
 pub(crate) fn within(
     task: &Task,
     relaxed: &mut Relaxed<'_>,
     (state, goal): (&State, &[FactId]),
     steps: usize,
-) -> Vec<OperatorId> {
-    const NEVER: usize = usize::MAX;
+) -> Reduced {
     // Steps after which an operator can be carried out at the earliest.
     let earliest = relaxed.earliest(state, steps);
+    let init = relaxed::facts(state);
+    let all = serving(task, relaxed, &earliest, (&[], goal), steps);
+    let operators = if all.len() <= FEW {
+        all
+    } else {
+        serving(task, relaxed, &earliest, (&init, goal), steps)
+    };
+    Reduced::keeping(task, operators, &init, goal)
+}
+
+/// The operators that can come in time, and early enough to serve the goal, without what serves facts that are given.
+fn serving(
+    task: &Task,
+    relaxed: &Relaxed<'_>,
+    earliest: &[usize],
+    (given, goal): (&[FactId], &[FactId]),
+    steps: usize,
+) -> Vec<OperatorId> {
+    const NEVER: usize = usize::MAX;
     // Facts that were wanted already.
     let mut wanted = vec![false; task.facts.len()];
+    given.iter().for_each(|fact| wanted[fact.index()] = true);
     let mut layer = goal.to_vec();
     let mut kept = vec![false; task.operators.len()];
     for left in 0..steps {
@@ -55,11 +80,9 @@ mod tests {
             let Some(fewest) = fewest_steps(&task) else { continue };
             let state = initial(&task);
             for steps in [fewest, fewest + 2] {
-                let own = within(&task, &mut Relaxed::new(&task), (&state, &task.goal), steps);
-                left_out += task.operators.len() - own.len();
-                let operators = own.iter().map(|&id| task.operator(id).clone()).collect();
-                let piece = Task { operators, ..task.clone() };
-                assert_eq!(fewest_steps(&piece), Some(fewest), "seed {seed}");
+                let piece = within(&task, &mut Relaxed::new(&task), (&state, &task.goal), steps);
+                left_out += task.operators.len() - piece.task.operators.len();
+                assert_eq!(fewest_steps(&piece.task), Some(fewest), "seed {seed}");
             }
             planned += usize::from(fewest > 0);
         }

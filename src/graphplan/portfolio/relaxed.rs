@@ -27,7 +27,12 @@ pub(crate) fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
         operator.add_effects.iter().for_each(|fact| bits::take(&mut needed, fact.index()));
         operator.preconditions.iter().for_each(|fact| bits::put(&mut needed, fact.index()));
     }
-    bits::members(&needed).map(|fact| FactId(fact as u32)).collect()
+    facts(&needed)
+}
+
+/// The facts that hold, sorted.
+pub(crate) fn facts(state: &State) -> Vec<FactId> {
+    bits::members(state).map(|fact| FactId(fact as u32)).collect()
 }
 
 /// Carries out an action whose conditions hold.

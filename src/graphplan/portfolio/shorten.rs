@@ -7,8 +7,8 @@
 //! than it began with, and costs no more.
 
 use super::parallel::in_parallel;
-use super::piece;
-use super::relaxed::{Relaxed, initial};
+use super::relaxed::{Relaxed, State, carry_out, holds, initial};
+use super::{any, piece};
 use crate::plan::Plan;
 use crate::proof::{Turn, search_counted};
 use crate::strips::{FactId, OperatorId, Task};
@@ -27,6 +27,12 @@ const TURN: Turn = Turn {
     seek: None,
 };
 
+/// A stage is looked for within so many steps, the fewest first: what lies farther off need not be made ready.
+const REACHES: [usize; 5] = [8, 16, 32, 64, 128];
+
+/// More operators than these are not made ready for the fewest steps of a stage.
+const MOST_OPERATORS: usize = 1 << 13;
+
 /// What making ready to plan a piece takes for each operator, beside what its search counts.
 const EFFORT_AN_OPERATOR: u64 = 32;
 
@@ -40,8 +46,6 @@ pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits, effort: &mut u64
     };
     let mut plan = plan;
     let mut left = limits.shorten;
-    // One copy serves all pieces, which differ in where they begin and end, and in what they can use in between.
-    let mut piece = Task { operators: Vec::new(), ..task.clone() };
     let mut relaxed = Relaxed::new(task);
     let mut narrowest = 0;
     while let Some(&width) = WIDTHS.get(narrowest) {
@@ -49,7 +53,7 @@ pub(crate) fn shorten(task: &Task, plan: Plan, limits: &Limits, effort: &mut u64
         let mut from = 0;
         while from < plan.steps.len() && left > 0 && *effort > 0 && limits.check(0).is_ok() {
             left -= 1;
-            match replaced((task, &mut piece, &mut relaxed), &plan, (from, width), limits, effort) {
+            match replaced((task, &mut relaxed), &plan, (from, width), limits, effort) {
                 Some(shorter) => {
                     plan = shorter;
                     if is_no_dearer(&plan) && size(&plan) < size(&best) {
@@ -78,32 +82,32 @@ fn size(plan: &Plan) -> (usize, usize) {
 
 /// The plan with a better piece in place of `width` of its steps; what the search for it takes is taken from `effort`.
 fn replaced(
-    (task, piece, relaxed): (&Task, &mut Task, &mut Relaxed<'_>),
+    (task, relaxed): (&Task, &mut Relaxed<'_>),
     plan: &Plan,
     (from, width): (usize, usize),
     limits: &Limits,
     effort: &mut u64,
 ) -> Option<Plan> {
     let to = (from + width).min(plan.steps.len());
-    piece.init = state_before(task, &plan.steps[..from]);
-    piece.goal = needed_by(task, &plan.steps[to..]);
-    let own = piece::within(task, relaxed, (&initial(piece), &piece.goal), to - from);
-    piece.operators = own.iter().map(|&id| task.operator(id).clone()).collect();
-    let ready = EFFORT_AN_OPERATOR * own.len() as u64 + task.operators.len() as u64;
+    let state = state_after(task, &plan.steps[..from]);
+    let goal = needed_by(task, &plan.steps[to..]);
+    let piece = piece::within(task, relaxed, (&state, &goal), to - from);
+    let ready =
+        EFFORT_AN_OPERATOR * piece.task.operators.len() as u64 + task.operators.len() as u64;
     *effort = effort.saturating_sub(ready);
     let within = Limits { parallel_steps: to - from, shorten: 0, ..limits.clone() };
     let turn = Turn { effort: Some(*effort), ..TURN };
-    let (outcome, spent) = search_counted(piece, &within, turn);
+    let (outcome, spent) = search_counted(&piece.task, &within, turn);
     *effort = effort.saturating_sub(spent);
-    let Some(Outcome::Plan(mut found)) = outcome else { return None };
-    found.steps.iter_mut().flatten().for_each(|id| *id = own[id.index()]);
+    let Some(Outcome::Plan(found)) = outcome else { return None };
+    let found = piece.own(found);
     let operators = plan.steps[..from].iter().chain(&found.steps).chain(&plan.steps[to..]);
     let whole = in_parallel(task, operators.flatten().copied());
     (size(&whole) < size(plan)).then_some(whole)
 }
 
-/// One stage after the other, each in the fewest steps from where the one before ended; none where one of them takes
-/// more than so much effort.
+/// One stage after the other, each in the fewest steps from where the one before ended, as far as so much effort for each
+/// tells; none where the way to one of them is not found.
 pub(crate) fn one_by_one(
     task: &Task,
     stages: &[Vec<FactId>],
@@ -111,34 +115,51 @@ pub(crate) fn one_by_one(
     limits: &Limits,
 ) -> Option<Plan> {
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
-    let mut piece = task.clone();
+    let mut relaxed = Relaxed::new(task);
     for stage in stages {
-        let init = state_before(task, &steps);
+        let state = state_after(task, &steps);
         let mut goal = stage.clone();
         goal.sort_unstable();
-        if goal.iter().all(|fact| init.contains(fact)) {
+        if goal.iter().all(|&fact| holds(&state, fact)) {
             continue;
         }
-        (piece.init, piece.goal) = (init, goal);
-        let within = Limits { fewer_actions: 0, shorten: 0, ..limits.clone() };
-        let turn = Turn { effort: Some(effort), ..TURN };
-        let (Some(Outcome::Plan(found)), _) = search_counted(&piece, &within, turn) else {
-            return None;
-        };
+        let found = stage_within(task, &mut relaxed, (&state, &goal), effort, limits)?;
         steps.extend(found.steps);
     }
     super::parallel::drop_needless(task, &mut steps);
     Some(in_parallel(task, steps.into_iter().flatten()))
 }
 
-fn state_before(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
-    let mut holds = vec![false; task.facts.len()];
-    task.init.iter().for_each(|fact| holds[fact.index()] = true);
-    for &id in steps.iter().flatten() {
-        task.operator(id).del_effects.iter().for_each(|fact| holds[fact.index()] = false);
-        task.operator(id).add_effects.iter().for_each(|fact| holds[fact.index()] = true);
+/// The fewest steps to a stage, or, where that is too much to be found out, those that hill climbing finds.
+fn stage_within(
+    task: &Task,
+    relaxed: &mut Relaxed<'_>,
+    ends: (&State, &[FactId]),
+    effort: u64,
+    limits: &Limits,
+) -> Option<Plan> {
+    let turn = Turn { effort: Some(effort), ..TURN };
+    let mut last = None;
+    for reach in REACHES {
+        let piece = piece::within(task, relaxed, ends, reach);
+        if piece.task.operators.len() <= MOST_OPERATORS {
+            let within =
+                Limits { parallel_steps: reach, fewer_actions: 0, shorten: 0, ..limits.clone() };
+            if let (Some(Outcome::Plan(found)), _) = search_counted(&piece.task, &within, turn) {
+                return Some(piece.own(found));
+            }
+        }
+        last = Some(piece);
     }
-    task.fact_ids().filter(|fact| holds[fact.index()]).collect()
+    let piece = last?;
+    let climbed = any::in_order(&piece.task, std::slice::from_ref(&piece.task.goal), limits);
+    climbed.ok().flatten().map(|found| piece.own(found))
+}
+
+fn state_after(task: &Task, steps: &[Vec<OperatorId>]) -> State {
+    let mut state = initial(task);
+    steps.iter().flatten().for_each(|&id| carry_out(task, &mut state, id));
+    state
 }
 
 /// What must hold for the last steps of a plan to reach the goal.
@@ -160,6 +181,7 @@ fn needed_by(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
 mod tests {
     use std::cell::RefCell;
 
+    use super::super::relaxed::facts;
     use super::*;
     use crate::samples::{Random, random_errand, random_task};
     use crate::{Outcome, solve_any, validate};
@@ -197,17 +219,17 @@ mod tests {
     fn wandering(task: &Task, random: &mut Random, otherwise: &Plan) -> Plan {
         let mut steps: Vec<Vec<OperatorId>> = Vec::new();
         for _ in 0..6 {
-            let holds = state_before(task, &steps);
+            let state = state_after(task, &steps);
             let possible: Vec<OperatorId> = task
                 .operator_ids()
-                .filter(|&id| task.operator(id).preconditions.iter().all(|f| holds.contains(f)))
+                .filter(|&id| task.operator(id).preconditions.iter().all(|&f| holds(&state, f)))
                 .collect();
             if possible.is_empty() {
                 break;
             }
             steps.push(vec![possible[random.below(possible.len())]]);
         }
-        let rest = Task { init: state_before(task, &steps), ..task.clone() };
+        let rest = Task { init: facts(&state_after(task, &steps)), ..task.clone() };
         match solve_any(&rest, &Limits { shorten: 0, ..Limits::default() }) {
             Outcome::Plan(on) => in_parallel(task, steps.into_iter().chain(on.steps).flatten()),
             _ => otherwise.clone(),

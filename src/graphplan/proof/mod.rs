@@ -85,10 +85,7 @@ const LARGE: usize = 1_000;
 
 pub(crate) fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Unfinished> {
     let reduced = needed::Reduced::of(task, limits)?;
-    let own = |mut plan: Plan| {
-        plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
-        plan
-    };
+    let own = |plan: Plan| reduced.own(plan);
     let turn = Turn { effort: limits.effort, ..Turn::default() };
     let (outcome, learned) = with_stack(|| search(&reduced.task, limits, turn, None))
         .map_err(|unfinished| Unfinished { plan: unfinished.plan.map(own), ..unfinished })?;
@@ -215,7 +212,10 @@ impl<'t> Working<'t> {
         if task.facts.len() < LARGE {
             return Ok(Self::Whole(task));
         }
-        Ok(Self::Reduced(needed::Reduced::of(task, limits)?))
+        let reduced = needed::Reduced::of(task, limits)?;
+        // Little is won by little less, and lost what is known in terms of the whole.
+        let is_worth_it = 2 * reduced.task.operators.len() <= task.operators.len();
+        Ok(if is_worth_it { Self::Reduced(reduced) } else { Self::Whole(task) })
     }
 
     pub(crate) fn task(&self) -> &Task {
@@ -236,11 +236,11 @@ impl<'t> Working<'t> {
     }
 
     /// A plan of this task in terms of the whole.
-    pub(crate) fn own(&self, mut plan: Plan) -> Plan {
-        if let Self::Reduced(reduced) = self {
-            plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
+    pub(crate) fn own(&self, plan: Plan) -> Plan {
+        match self {
+            Self::Whole(_) => plan,
+            Self::Reduced(reduced) => reduced.own(plan),
         }
-        plan
     }
 }
 

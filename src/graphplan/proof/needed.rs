@@ -21,8 +21,8 @@
 use super::detours::{Detours, Uses};
 use super::pairs::ReachedPairs;
 use crate::bits;
-use crate::strips::{FactId, OperatorId, Task};
-use crate::{Limit, Limits};
+use crate::strips::{FactId, Operator, OperatorId, Task};
+use crate::{Limit, Limits, Plan};
 
 /// A task with fewer operators and facts, and the same fewest steps.
 pub(crate) struct Reduced {
@@ -39,48 +39,55 @@ impl Reduced {
         let uses = Uses::of(task, &pairs);
         let mut relevance = Relevance::new(task, &pairs, &uses);
         relevance.fixpoint(limits)?;
-        let (kept, needed) = (relevance.kept, relevance.needed);
-        let operators: Vec<OperatorId> =
-            task.operator_ids().filter(|id| kept[id.index()]).collect();
-        let (mut added, mut deleted) = (vec![false; needed.len()], vec![false; needed.len()]);
-        let (mut renewed, mut users) = (vec![false; needed.len()], vec![0; needed.len()]);
+        let operators = task.operator_ids().filter(|id| relevance.kept[id.index()]).collect();
+        Ok(Self::keeping(task, operators, &task.init, &task.goal))
+    }
+
+    /// These operators and the facts that matter to them, from one state to one goal.
+    pub(crate) fn keeping(
+        task: &Task,
+        operators: Vec<OperatorId>,
+        init: &[FactId],
+        goal: &[FactId],
+    ) -> Self {
+        let mut roles = vec![Role::default(); task.facts.len()];
+        init.iter().for_each(|fact| roles[fact.index()].is_initial = true);
+        goal.iter().for_each(|fact| roles[fact.index()].is_goal = true);
         for operator in operators.iter().map(|&id| task.operator(id)) {
-            operator.add_effects.iter().for_each(|fact| added[fact.index()] = true);
-            operator.del_effects.iter().for_each(|fact| deleted[fact.index()] = true);
-            operator.renewed.iter().for_each(|fact| renewed[fact.index()] = true);
+            operator.add_effects.iter().for_each(|fact| roles[fact.index()].is_added = true);
+            operator.del_effects.iter().for_each(|fact| roles[fact.index()].is_deleted = true);
+            operator.renewed.iter().for_each(|fact| roles[fact.index()].is_renewed = true);
+            operator.preconditions.iter().for_each(|fact| roles[fact.index()].is_needed = true);
             let needs_only =
                 operator.preconditions.iter().filter(|fact| !operator.add_effects.contains(fact));
-            needs_only.chain(&operator.add_effects).for_each(|fact| users[fact.index()] += 1);
+            needs_only.chain(&operator.add_effects).for_each(|f| roles[f.index()].users += 1);
         }
-        let (initially, is_goal) = (&uses.initially, &uses.is_goal);
-        // What holds and is never given up need not be asked for; it still keeps operators apart, and so does what
-        // nobody needs, where one of them deletes, if only for a moment, what another adds or needs.
-        let counts = |fact: usize| {
-            let stays = initially[fact] && !deleted[fact] && !is_goal[fact];
-            let contested = added[fact] && deleted[fact] || renewed[fact] && users[fact] > 1;
-            contested || needed[fact] && !stays
-        };
-        let facts: Vec<FactId> = task.fact_ids().filter(|fact| counts(fact.index())).collect();
+        let counts = |fact: &FactId| roles[fact.index()].counts();
+        let facts: Vec<FactId> = task.fact_ids().filter(counts).collect();
         let mut number = vec![None; task.facts.len()];
         for (new, old) in facts.iter().enumerate() {
             number[old.index()] = Some(FactId(new as u32));
         }
         let own = |facts: &[FactId]| facts.iter().filter_map(|f| number[f.index()]).collect();
-        let mut smaller = Task {
+        let of_operator = |&id: &OperatorId| {
+            let operator = task.operator(id);
+            Operator {
+                preconditions: own(&operator.preconditions),
+                add_effects: own(&operator.add_effects),
+                del_effects: own(&operator.del_effects),
+                renewed: own(&operator.renewed),
+                ..operator.clone()
+            }
+        };
+        let smaller = Task {
             facts: facts.iter().map(|&fact| task.fact(fact).clone()).collect(),
-            operators: operators.iter().map(|&id| task.operator(id).clone()).collect(),
-            init: own(&task.init),
-            goal: own(&task.goal),
+            operators: operators.iter().map(of_operator).collect(),
+            init: own(init),
+            goal: own(goal),
             assumptions: own(&task.assumptions),
             goal_steps: 0,
         };
-        for operator in &mut smaller.operators {
-            operator.preconditions = own(&operator.preconditions);
-            operator.add_effects = own(&operator.add_effects);
-            operator.del_effects = own(&operator.del_effects);
-            operator.renewed = own(&operator.renewed);
-        }
-        Ok(Self { task: smaller, facts, operators })
+        Self { task: smaller, facts, operators }
     }
 
     pub(crate) fn fact(&self, of_reduced: FactId) -> FactId {
@@ -89,6 +96,35 @@ impl Reduced {
 
     pub(crate) fn operator(&self, of_reduced: OperatorId) -> OperatorId {
         self.operators[of_reduced.index()]
+    }
+
+    /// A plan of this task in terms of the whole.
+    pub(crate) fn own(&self, mut plan: Plan) -> Plan {
+        plan.steps.iter_mut().flatten().for_each(|id| *id = self.operator(*id));
+        plan
+    }
+}
+
+/// What a fact is to the operators that are kept.
+#[derive(Clone, Copy, Default)]
+struct Role {
+    is_initial: bool,
+    is_goal: bool,
+    is_needed: bool,
+    is_added: bool,
+    is_deleted: bool,
+    is_renewed: bool,
+    /// How many need it, or add it.
+    users: usize,
+}
+
+impl Role {
+    /// What holds and is never given up need not be asked for; it still keeps operators apart, and so does what nobody
+    /// needs, where one of them deletes, if only for a moment, what another adds or needs.
+    fn counts(self) -> bool {
+        let stays = self.is_initial && !self.is_deleted && !self.is_goal;
+        let is_contested = self.is_added && self.is_deleted || self.is_renewed && self.users > 1;
+        is_contested || (self.is_needed || self.is_goal) && !stays
     }
 }
 
