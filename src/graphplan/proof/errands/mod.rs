@@ -72,18 +72,33 @@ impl Errands {
             .max_by_key(|errands| errands.at_least)
     }
 
+    /// Of one thing alone, where it is changes just as what the hand holds does: each such group is tried as the hand.
     fn with_walker(task: &Task, groups: &[Group], first: usize) -> Option<Self> {
         // The walker's groups: those that change together with the first, or need it when they change.
         let walker: Vec<&Group> = groups
             .iter()
             .filter(|group| group.number == first || group.goes_with(&groups[first], task))
             .collect();
-        let hand = groups.iter().find(|group| {
+        let is_hand = |group: &&Group| {
             !walker.iter().any(|other| other.number == group.number)
                 && walker.iter().all(|other| !group.meets(other))
                 && group.is_hand(task, &walker)
-        });
-        let mut places = Places::of(task, &walker)?;
+        };
+        let hands: Vec<&Group> = groups.iter().filter(is_hand).collect();
+        if hands.is_empty() {
+            return Self::with_hand(task, groups, &walker, None);
+        }
+        let with_hand = |&hand: &&Group| Self::with_hand(task, groups, &walker, Some(hand));
+        hands.iter().filter_map(with_hand).max_by_key(|errands| errands.at_least)
+    }
+
+    fn with_hand(
+        task: &Task,
+        groups: &[Group],
+        walker: &[&Group],
+        hand: Option<&Group>,
+    ) -> Option<Self> {
+        let mut places = Places::of(task, walker)?;
         let mut carried = Vec::new();
         let mut counted: BTreeSet<OperatorId> = places.moves.clone();
         let mut visits = Vec::new();
@@ -119,21 +134,28 @@ impl Errands {
                 None => rest.push(goal),
             }
         }
-        // What is done at a place visited counts as well, where it is nothing else and goes beside nothing else.
-        let mut actions = 2 * carried.len();
+        // What is done at a place visited counts as well, where it is nothing else and goes beside nothing else; where it
+        // goes beside no move, but maybe beside what is done with things, either counts.
         let by_goal: Vec<Vec<OperatorId>> =
             visited.iter().map(|(goal, _)| bringers(task, *goal).collect()).collect();
         let bringers: Vec<OperatorId> = by_goal.iter().flatten().copied().collect();
-        let with: BTreeSet<OperatorId> = counted.iter().chain(&bringers).copied().gather();
+        let with_bringers = |others: &BTreeSet<OperatorId>| {
+            let all: BTreeSet<OperatorId> = others.iter().chain(&bringers).copied().gather();
+            (all.len() == others.len() + bringers.len()).then_some(all)
+        };
         let excludes = |counted: &BTreeSet<OperatorId>| {
             let counted: Vec<OperatorId> = counted.iter().copied().collect();
             counted.len() <= MOST_COUNTED && all_exclude(task, groups, &counted)
         };
-        if with.len() == counted.len() + bringers.len() && excludes(&with) {
-            actions += by_goal.len();
+        let actions = if with_bringers(&counted).is_some_and(|all| excludes(&all)) {
+            2 * carried.len() + by_goal.len()
         } else if !excludes(&counted) {
             return None;
-        }
+        } else if with_bringers(&places.moves).is_some_and(|all| excludes(&all)) {
+            by_goal.len().max(2 * carried.len())
+        } else {
+            2 * carried.len()
+        };
         let spot = |operators: &[OperatorId], places: &Places| {
             places.spot(task, operators).and_then(|spot| spot.first().copied())
         };
