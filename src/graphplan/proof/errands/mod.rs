@@ -593,7 +593,12 @@ mod tests {
             goal.push(at[random.below(rooms)]);
         }
         let mut task = named.task(&init, &goal);
-        // The places of one thing are facts of one predicate, as the groups want them.
+        named_by_kind(&mut task);
+        task
+    }
+
+    /// The places of one thing are facts of one predicate, as the groups want them.
+    fn named_by_kind(task: &mut Task) {
         for fact in &mut task.facts {
             let digits =
                 fact.predicate.find(|c: char| c.is_ascii_digit()).unwrap_or(fact.predicate.len());
@@ -601,7 +606,35 @@ mod tests {
             fact.args = if arg.is_empty() { Vec::new() } else { vec![arg.into()] };
             fact.predicate = predicate.into();
         }
-        task
+    }
+
+    /// Five rooms around a hall, each to be looked into, and one thing to be carried from one to another: the looks go beside
+    /// taking and putting, but beside no move.
+    #[test]
+    fn looks_count_beside_what_is_carried() {
+        let mut named = Named::default();
+        let hall = named.fact("in0");
+        let (free, held) = (named.fact("free"), named.fact("held"));
+        let (mut init, mut goal) = (vec![hall, free], Vec::new());
+        let mut lies = Vec::new();
+        for room in 1..=5 {
+            let at = named.fact(&format!("in{room}"));
+            named.operator(&[hall], &[at], &[hall]);
+            named.operator(&[at], &[hall], &[at]);
+            lies.push(named.fact(&format!("lies{room}")));
+            named.operator(&[at, lies[room - 1], free], &[held], &[lies[room - 1], free]);
+            named.operator(&[at, held], &[lies[room - 1], free], &[held]);
+            goal.push(named.fact(&format!("seen{room}")));
+            named.operator(&[at], &[goal[room - 1]], &[]);
+        }
+        init.push(lies[0]);
+        goal.push(lies[1]);
+        let mut task = named.task(&init, &goal);
+        named_by_kind(&mut task);
+        let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { panic!("there is one") };
+        let bound = Errands::of(&task).map(|errands| errands.at_least);
+        // Nine moves and five looks.
+        assert_eq!((bound, plan.steps.len()), (Some(14), 14));
     }
 
     #[test]
