@@ -10,6 +10,7 @@
 //!
 //! Invariant: every set that code names is there (a test reads the sources), and nothing else is.
 
+use std::collections::HashMap;
 use std::ops::{Deref, Range};
 use std::sync::OnceLock;
 
@@ -68,7 +69,7 @@ impl Set {
     fn words(&self) -> &Words {
         self.words.get_or_init(|| {
             let mut words = Words::default();
-            for (_, own) in all().iter().filter(|(name, _)| *name == self.name) {
+            for (_, own) in all().get(self.name).into_iter().flatten() {
                 words.all.extend(&own.all);
                 words.meant.extend(&own.meant);
             }
@@ -94,19 +95,27 @@ impl Deref for Set {
     }
 }
 
-/// The sets whose names begin so, in the order of the files: what each is called behind that, with its words.
+/// The sets of a kind, «Verb.», in the order of the files: what each is called behind that, with its words.
 pub(crate) fn of_kind(kind: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let own = all().iter().filter_map(move |(name, words)| Some((name.strip_prefix(kind)?, words)));
-    own.flat_map(|(name, words)| words.all.iter().map(move |word| (name, *word)))
+    let own = all().get(kind).into_iter().flatten();
+    own.flat_map(|(name, words)| words.all.iter().map(move |word| (*name, *word)))
 }
 
-fn all() -> &'static [(&'static str, Words)] {
-    static ALL: OnceLock<Vec<(&str, Words)>> = OnceLock::new();
+/// Sets by their names or, up to a full stop, by their kinds, with what stands behind it.
+type Sets = HashMap<&'static str, Vec<(&'static str, Words)>>;
+
+fn all() -> &'static Sets {
+    static ALL: OnceLock<Sets> = OnceLock::new();
     ALL.get_or_init(|| {
-        let texts = FILES.iter().map(|(_, text)| **text);
-        let read = texts.flat_map(|text| statements(text).into_iter().map(|at| read(text, &at)));
-        // A test reads every one.
-        read.filter_map(Result::ok).collect()
+        let mut all = Sets::new();
+        for (_, text) in &FILES {
+            // A test reads every one.
+            for (name, words) in statements(text).iter().filter_map(|at| read(text, at).ok()) {
+                let (own, rest) = name.split_at(name.find('.').map_or(name.len(), |dot| dot + 1));
+                all.entry(own).or_default().push((rest, words));
+            }
+        }
+        all
     })
 }
 
@@ -169,12 +178,10 @@ mod tests {
                 assert!(names.insert(name), "{path} has {name} twice");
             }
         }
-        for (name, words) in all() {
+        for (name, sets) in all().iter().filter(|(name, _)| !name.ends_with('.')) {
             // What stands for something else is compared as the map or a list has it.
-            if name.contains('.') || !words.meant.is_empty() {
-                continue;
-            }
-            for word in &words.all {
+            let keys = sets.iter().filter(|(_, words)| words.meant.is_empty());
+            for word in keys.flat_map(|(_, words)| &words.all) {
                 assert_eq!(name_key(word), *word, "{name} is looked for by keys");
             }
         }
@@ -215,20 +222,14 @@ mod tests {
         }
         let mut code = String::new();
         sources(std::path::Path::new(env!("CARGO_MANIFEST_DIR")), &mut code);
-        for (name, _) in all() {
-            let named = match name.split_once('.') {
-                Some((kind, _)) => format!("\"{kind}.\""),
-                None => format!("(\"{name}\")"),
-            };
-            assert!(code.contains(&named), "nobody uses {name}");
+        for name in all().keys() {
+            let named = [format!("(\"{name}\")"), format!("\"{name}\"")];
+            assert!(code.contains(&named[usize::from(name.ends_with('.'))]), "nobody uses {name}");
         }
         for before in ["Set::named(\"", "set!(\"", "of_kind(\""] {
             for behind in code.split(before).skip(1) {
                 let name = behind.split('"').next().unwrap_or_default();
-                let is_it = |(own, _): &(&str, Words)| {
-                    *own == name || name.ends_with('.') && own.starts_with(name)
-                };
-                assert!(all().iter().any(is_it), "{name} is nowhere");
+                assert!(all().contains_key(name), "{name} is nowhere");
             }
         }
     }

@@ -400,7 +400,7 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         // Up to what orders, behind a mark or «то», "then"; else up to the verb that follows. What is waited for may be
         // one word: «когда стемнеет».
         let least = from + if waits { 1 } else { 2 };
-        let marked = |n: &usize| parted(*n) || matches!(keys[n - 1].as_str(), "то" | "then");
+        let marked = |n: &usize| parted(*n) || set!("Then").contains(&keys[n - 1].as_str());
         let next = (least..keys.len())
             .filter(marked)
             .find(|&n| orders(n) || phrase(n, &NOTHING).is_some());
@@ -490,8 +490,9 @@ fn order_and_question(text: &str) -> Option<(&str, String)> {
         }
         let order = text[..words[at].start].trim_end();
         let mut order = order.trim_end_matches([',', ';', '.']);
-        for joint in [" и", " а", " and", " then", " потом", " затем", " мне"] {
-            order = order.strip_suffix(joint).unwrap_or(order).trim_end().trim_end_matches(',');
+        for joint in set!("BeforeTelling") {
+            let before = order.strip_suffix(joint).filter(|before| before.ends_with(' '));
+            order = before.unwrap_or(order).trim_end().trim_end_matches(',');
         }
         if at == 0 || is_order(order) {
             let tell = Language::of(text).pick("скажи, ", "tell me ");

@@ -408,7 +408,7 @@ pub(super) fn is_reported(keys: &[String]) -> bool {
     let Some(last) = before.last() else { return false };
     let whether = joined.iter().any(|key| key == "if" || key == "whether");
     let says = SAYING.contains(&last.as_str()) || STEMS.iter().any(|stem| last.starts_with(stem));
-    let confirms = matches!(last.as_str(), "verify" | "confirm");
+    let confirms = set!("Confirm").contains(&last.as_str());
     match whether {
         true => says || KNOWING.contains(&last.as_str()),
         false => says || confirms && !joined.is_empty(),
