@@ -179,7 +179,8 @@ const RUSSIAN: &[&[&str]] = &[
     &["Стол-1"],
 ];
 
-/// Whole sentences of the file: with gaps filled by what is on a map, each line puts one that is read.
+/// Whole sentences of the file: with gaps filled by what is on a map, each line puts one that is read. Lines about orders are
+/// gone over where it is known what each word does in an order: `language/command/kinds`.
 #[test]
 fn every_line_puts_a_sentence_that_is_read() {
     let engine = Engine::in_memory(rb2(), None).unwrap();

@@ -15,6 +15,8 @@
 //!   index of forms. Forms come from the map, then the word list, then the dictionary, then the ending; the
 //!   dictionary is opened at the first word that the list does not know. Names that differ in their tag alone
 //!   share one declined stem, so the index grows with the stems.
+//! - *Words.* What code looks for among words stands in the language files, in common sets (`sets`); what questions and
+//!   orders are made of, in `marks.txt`, `things.txt` and `commands.txt`.
 //! - *No guessing.* A sentence that names several things is ambiguous and one that names none is unknown; no
 //!   choice is made. Nothing that a person writes makes it panic.
 //! - *Questions.* Before it is read, a sentence is put into words that the map knows (`everyday`: diminutives
@@ -66,6 +68,7 @@ pub mod paraphrase;
 pub mod question;
 pub mod report;
 pub mod scan;
+mod sets;
 pub mod words;
 pub mod zones;
 

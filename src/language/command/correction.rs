@@ -5,6 +5,7 @@
 use super::said::Said;
 use super::verbs;
 use super::vocabulary::{CORRECTIONS, HESITATIONS, Meaning, Verb};
+use crate::sets::set;
 
 /// A text in two: what it has ordered, and what corrects that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,11 +43,9 @@ fn takes_back(said: &Said, at: usize) -> Option<(bool, usize)> {
     if is_cancelled(said, at) {
         return Some((true, said.keys.len()));
     }
-    let phrases = |all: &'static str| all.split('|').collect::<Vec<_>>();
-    let (sure, perhaps) = (phrases(CORRECTIONS), phrases(HESITATIONS));
     let (mut end, mut is_sure) = (at, false);
     loop {
-        match (said.phrase(end, &sure), said.phrase(end, &perhaps)) {
+        match (said.phrase(end, &CORRECTIONS), said.phrase(end, &HESITATIONS)) {
             (Some(taken), _) => (end, is_sure) = (end + taken, true),
             (None, Some(taken)) => end += taken,
             (None, None) => break,
@@ -57,24 +56,21 @@ fn takes_back(said: &Said, at: usize) -> Option<(bool, usize)> {
     }
     // "Tea, no sugar" takes nothing back.
     let is_link = || matches!(said.meaning(end), Some((_, Meaning::Link(_) | Meaning::Not)));
-    (said.parted(end)
-        || is_link()
-        || !said.is(end - 1, &["no", "нет", "sorry", "извини", "прости"]))
-    .then_some((is_sure, end))
+    (said.parted(end) || is_link() || !said.is(end - 1, set!("NoOrPardon")))
+        .then_some((is_sure, end))
 }
 
 /// Whether the rest of a text only says that nothing is to be done: "never mind", «нет, не надо», "no, wait".
 fn is_cancelled(said: &Said, mut at: usize) -> bool {
-    let sure: Vec<&str> = CORRECTIONS.split('|').collect();
     let mut is_said = false;
     while at < said.keys.len() {
-        at += match (said.meaning(at), said.phrase(at, &sure)) {
+        at += match (said.meaning(at), said.phrase(at, &CORRECTIONS)) {
             (Some((taken, Meaning::Verb(Verb::Stop | Verb::Needless) | Meaning::Not)), _) => {
                 is_said = true;
                 taken
             }
             (_, Some(taken)) => {
-                is_said |= said.is(at, &["no", "нет"]);
+                is_said |= said.is(at, set!("No"));
                 taken
             }
             (Some((taken, Meaning::Verb(Verb::Wait))), _) if is_said => taken,

@@ -10,6 +10,7 @@ use super::said::{Said, is_adjective};
 use super::verbs::{Sort, is_relative};
 use super::vocabulary::{Meaning, Role, Verb};
 use crate::command::Relation;
+use crate::sets::{Set, set};
 use crate::words::Language;
 
 /// What stands between two marks or joints, without the joint.
@@ -39,7 +40,7 @@ fn segments(said: &Said) -> Vec<Segment> {
             Some((taken, meaning)) => (taken, Some(meaning)),
             None => (1, None),
         };
-        let but = said.is(at, &["но", "but"]);
+        let but = said.is(at, set!("But"));
         if but || meaning == Some(Meaning::And) {
             contrasted |= but || said.is(at, &["а"]);
             begins = true;
@@ -233,32 +234,8 @@ pub(super) fn object_shared(said: &Said) -> Option<String> {
 
 /// «Одну чашку поставь на стол, а другую на полку», «… синюю на диван»: the noun once more.
 pub(super) fn noun_again(said: &Said) -> Option<String> {
-    const ONE: [&str; 13] = [
-        "другую",
-        "другой",
-        "другое",
-        "вторую",
-        "второй",
-        "второе",
-        "another",
-        "another one",
-        "the other",
-        "the other one",
-        "the second",
-        "the second one",
-        "one more",
-    ];
-    const REST: [&str; 9] = [
-        "остальные",
-        "остальных",
-        "остальное",
-        "другие",
-        "the rest",
-        "the others",
-        "the other ones",
-        "the remaining ones",
-        "all the others",
-    ];
+    static ONE: Set = Set::named("AnotherOne");
+    static REST: Set = Set::named("TheOthers");
     let all = segments(said);
     (1..all.len()).find_map(|n| {
         let (verb, taken, kind) = all[n].begins_with(said)?;

@@ -8,6 +8,7 @@ use super::spoken;
 use super::verbs::{RELATIVE, Sort, keys_of, meaning_at};
 use super::vocabulary::Meaning;
 use crate::paraphrase::Paraphrases;
+use crate::sets::{Set, set};
 use crate::words::word_ranges;
 
 /// The text as the grammars read it: relative clauses as mere places («книгу, которая лежит на столе» is «книгу на
@@ -30,40 +31,7 @@ pub(crate) fn gathered_of<'t>(text: &'t str, lines: &Paraphrases) -> (Cow<'t, st
 }
 
 /// Verbs whose second half may stand behind what they are done to: "turn the lamp on".
-const SPLIT: &[(&str, &[&str])] = &[
-    ("turn", &["on", "off", "out"]),
-    ("switch", &["on", "off"]),
-    ("power", &["on", "off", "up", "down"]),
-    ("pick", &["up"]),
-    ("lift", &["up"]),
-    ("put", &["down", "back", "away"]),
-    ("place", &["back"]),
-    ("take", &["back", "out"]),
-    ("bring", &["back"]),
-    ("set", &["down"]),
-    ("lay", &["down"]),
-    ("throw", &["away", "out"]),
-    ("toss", &["away", "out"]),
-    ("clear", &["up", "away"]),
-    ("clean", &["up"]),
-    ("tidy", &["up"]),
-    ("lock", &["up"]),
-    ("shut", &["off", "down"]),
-    ("положи", &["обратно", "назад", "на место"]),
-    ("положите", &["обратно", "назад", "на место"]),
-    ("поставь", &["обратно", "назад", "на место"]),
-    ("поставьте", &["обратно", "назад", "на место"]),
-    ("верни", &["обратно", "назад", "на место"]),
-    ("верните", &["обратно", "назад", "на место"]),
-    ("отнеси", &["обратно", "назад", "на место"]),
-    ("отвези", &["обратно", "назад", "на место"]),
-    ("отвезите", &["обратно", "назад", "на место"]),
-    ("отнесите", &["обратно", "назад", "на место"]),
-    ("убери", &["обратно", "назад", "на место"]),
-    ("уберите", &["обратно", "назад", "на место"]),
-    ("повесь", &["обратно", "назад", "на место"]),
-    ("повесьте", &["обратно", "назад", "на место"]),
-];
+static SPLIT: Set = Set::named("SplitVerb");
 
 fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -> bool {
     let Some(word) = words.get(at) else { return true };
@@ -74,7 +42,7 @@ fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -
 
 /// Whether a relative clause, which begins at a word, tells of a pointing word that has no noun: «принеси тот, что на столе».
 fn stands_for_noun(keys: &[String], at: usize) -> bool {
-    const POINTING: [&str; 6] = ["тот", "та", "ту", "то", "того", "той"];
+    static POINTING: Set = Set::named("PointingNoun");
     let points = |n: usize| keys.get(n).is_some_and(|key| POINTING.contains(&key.as_str()));
     let Some(pointing) = (at.saturating_sub(1)..=at).find(|n| points(*n)) else { return false };
     (0..pointing).rev().take(2).any(|n| {
@@ -98,9 +66,8 @@ fn without_relatives(text: &str) -> Cow<'_, str> {
                 Some((_, Meaning::Link(_)))
             );
             let pointing = keys.get(at..at + length).is_some_and(|said| said == ["the", "one"]);
-            let nearest = keys.get(at + length).is_some_and(|key| {
-                matches!(key.as_str(), "nearest" | "closest" | "farthest" | "furthest")
-            });
+            let nearest =
+                keys.get(at + length).is_some_and(|key| set!("Nearest").contains(&key.as_str()));
             // "Bring the one from the dresser" has no other object.
             let parted = text[words[at - 1].end..words[at].start].contains(',');
             let before_place = before_place && (!pointing || parted) || pointing && nearest;
@@ -176,7 +143,9 @@ fn joined(text: &str) -> Cow<'_, str> {
     let keys = keys_of(text, &words);
     let mut moved: Vec<(usize, Range<usize>)> = Vec::new();
     for (at, key) in keys.iter().enumerate() {
-        let Some((_, halves)) = SPLIT.iter().find(|(verb, _)| verb == key) else { continue };
+        let of = |(verbs, _): &&(&str, &str)| verbs.split(", ").any(|verb| verb == key);
+        let Some((_, halves)) = SPLIT.meant().iter().find(of) else { continue };
+        let halves: Vec<&str> = halves.split(", ").collect();
         // "Turn off every lamp that is on"
         if keys.get(at + 1).is_some_and(|next| halves.contains(&next.as_str())) {
             continue;
@@ -184,7 +153,7 @@ fn joined(text: &str) -> Cow<'_, str> {
         let end = (at + 1..=words.len()).find(|&end| ends_clause(text, &words, &keys, end));
         let mut last = end.unwrap_or(words.len());
         // "… on, please", "… off now"
-        while last > at + 2 && matches!(keys[last - 1].as_str(), "please" | "now" | "again") {
+        while last > at + 2 && set!("BehindHalf").contains(&keys[last - 1].as_str()) {
             last -= 1;
         }
         let half_before = |end: usize| {
@@ -198,7 +167,7 @@ fn joined(text: &str) -> Cow<'_, str> {
             |end: &usize| matches!(meaning_at(&keys, *end), Some((_, Meaning::Link(_))));
         // … but "put it back on the shelf" says whither.
         let stays = |(_, half): &(usize, Range<usize>)| {
-            !matches!(keys[half.start].as_str(), "back" | "away" | "обратно" | "назад" | "на")
+            !set!("HalfOfPlace").contains(&keys[half.start].as_str())
         };
         let inside = || (at + 3..last).filter(before_place).filter_map(half_before).find(stays);
         moved.extend(half_before(last).or_else(inside));

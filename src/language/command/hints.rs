@@ -6,6 +6,7 @@ use super::said::Said;
 use super::vocabulary::{Link, Meaning, Role, Verb, longest};
 use super::{Misheard, Relation, is_too_long, time, verbs};
 use crate::paraphrase::{Paraphrases, Stage};
+use crate::sets::{Set, set};
 use crate::units::{OwnText, Source};
 use crate::words::{phrase_at, word_keys, word_ranges};
 
@@ -36,7 +37,7 @@ pub(crate) fn awaited(keys: &[String]) -> Option<(usize, usize)> {
         let found = longest(&keys[n..].iter().map(String::as_str));
         matches!(found, Some((_, Meaning::Verb(Verb::Wait))))
     });
-    let called = keys.get(at + taken).is_none_or(|key| ["i", "we", "я", "мы"].contains(&&**key));
+    let called = keys.get(at + taken).is_none_or(|key| set!("FirstPerson").contains(&&**key));
     (waits && !called).then_some((at, at + taken))
 }
 
@@ -152,25 +153,7 @@ pub fn is_order_by(text: &str, lines: &Paraphrases) -> bool {
 #[must_use]
 pub fn preamble(sentence: &str) -> Option<(&str, &str)> {
     /// What begins so says when, and is part of the order.
-    const WHEN: [&str; 17] = [
-        "after",
-        "before",
-        "when",
-        "once",
-        "until",
-        "while",
-        "if",
-        "unless",
-        "as",
-        "после",
-        "перед",
-        "когда",
-        "пока",
-        "если",
-        "прежде",
-        "как",
-        "сразу",
-    ];
+    static WHEN: Set = Set::named("BeginsBound");
     let first = word_keys(sentence).into_iter().next();
     // "Don't go through the hall, go to …": what is forbidden is told as a bound of the order.
     let bounds = verbs::forbids(&gathered(sentence));

@@ -14,6 +14,7 @@ use super::verbs::{Sort, is_relative};
 use super::vocabulary::{Meaning, Role, Verb};
 use crate::command::Relation;
 use crate::paraphrase::{Paraphrases, Stage, lost};
+use crate::sets::{Set, set};
 use crate::words::Language;
 
 /// What a rewriting may leave out.
@@ -88,7 +89,7 @@ fn spared(said: &Said) -> Option<String> {
     let begin = (verb + taken + 1..=needless).rev().find(|&n| said.parted(n))?;
     let joint = |n: &usize| {
         matches!(said.meaning(*n), Some((_, Meaning::And | Meaning::Filler)))
-            || said.is(*n, &["but", "но", "а", "только"])
+            || said.is(*n, set!("BeforeNot"))
     };
     // «…, только не надо из спальни»
     let told = match (begin..needless).find(|n| !joint(n)) {
@@ -121,8 +122,8 @@ fn spared(said: &Said) -> Option<String> {
 
 /// "the cup, not the red one", «чашку, только не красную»: all but that.
 fn excluded(said: &Said) -> Option<String> {
-    const BUT_NOT: [&str; 5] = ["but not", "and not", "только не", "но не", "а не"];
-    const NOT: [&str; 2] = ["not", "не"];
+    static BUT_NOT: Set = Set::named("ButNot");
+    static NOT: Set = Set::named("Not");
     let not = |n: usize| said.phrase(n, &NOT).filter(|_| said.parted(n));
     let (at, taken) = (2..said.keys.len())
         .find_map(|n| Some((n, said.phrase(n, &BUT_NOT).or_else(|| not(n))?)))?;
@@ -159,7 +160,7 @@ fn excluded(said: &Said) -> Option<String> {
             Some((_, link)) => says_place(link, goes),
             None => {
                 // "not past the bedroom" names nothing yet.
-                let article = said.phrase(told.start, &["the", "a", "an"]);
+                let article = said.phrase(told.start, set!("TheOrA"));
                 let named = told.start + article.unwrap_or(0)..told.end;
                 let is_name = |text: &str| text.starts_with(char::is_uppercase);
                 !named.is_empty()
@@ -172,8 +173,7 @@ fn excluded(said: &Said) -> Option<String> {
     }
     // "the bowl from the table, not the one from the bed": told by its own place already.
     let link = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(link))) if link.role != Role::Whither);
-    let other_place =
-        said.phrase(at + taken, &["the one", "the ones", "ту что", "тот что", "то что"]);
+    let other_place = said.phrase(at + taken, set!("TheOneThat"));
     if other_place.is_some() && (0..at).any(link) {
         return Some(said.without(&(at..end)));
     }
@@ -228,39 +228,7 @@ fn is_gerund(key: &str) -> bool {
 
 /// "Leave the bowl where it is and …", «другая пусть остаётся»: beside what is to be done.
 fn left_alone(said: &Said) -> Option<String> {
-    const ALONE: [&str; 31] = [
-        "leave it",
-        "leave them",
-        "leave that",
-        "leave this",
-        "the rest",
-        "the others",
-        "остальное",
-        "остальные",
-        "оставь остальное",
-        "оставь остальные",
-        "where it is",
-        "where they are",
-        "as it is",
-        "as they are",
-        "alone",
-        "in peace",
-        "open",
-        "closed",
-        "shut",
-        "пусть остается",
-        "пусть останется",
-        "пусть стоит",
-        "пусть лежит",
-        "пусть остаются",
-        "не трогай",
-        "оставь на месте",
-        "оставь там",
-        "оставь как есть",
-        "оставь где стоит",
-        "оставь где лежит",
-        "оставь",
-    ];
+    static ALONE: Set = Set::named("LeftAlone");
     let parted = |n: usize| said.parted(n) || matches!(said.meaning(n), Some((_, Meaning::And)));
     let (at, taken) = (0..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &ALONE)?)))?;
     let end = at + taken;
@@ -286,12 +254,9 @@ fn left_alone(said: &Said) -> Option<String> {
     let whole = whole.join(", ");
     // "… all the books, but leave Book 4 where it is": what is left is no part of what is done.
     let idle = |n: usize| matches!(said.meaning(n), Some((_, Meaning::And | Meaning::Filler)));
-    let small = |n: usize| idle(n) || said.is(n, &["leave", "оставь"]);
+    let small = |n: usize| idle(n) || said.is(n, set!("Leave"));
     let from = (begin..at).find(|n| !small(*n)).unwrap_or(at);
-    const REST: [&str; 13] = [
-        "it", "them", "that", "those", "this", "these", "rest", "other", "others", "ее", "его",
-        "их", "это",
-    ];
+    static REST: Set = Set::named("LeftRest");
     let rest = (from..at).any(|n| {
         said.is(n, &REST) || said.keys[n].starts_with("друг") || said.keys[n].starts_with("остальн")
     });

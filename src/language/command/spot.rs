@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use crate::sets::Set;
 use crate::units::Lengths;
 
 /// A point that a sentence names, and where it does so: with the words that lead to it.
@@ -18,18 +19,7 @@ pub struct Pointed {
 }
 
 /// Words that may lead to a point, the longest first.
-const LEADING: [&str; 10] = [
-    "to the point",
-    "at the point",
-    "to point",
-    "в точку",
-    "к точке",
-    "на точку",
-    "в точке",
-    "в место",
-    "to",
-    "в",
-];
+static LEADING: Set = Set::named("ToPoint");
 /// Farther than this no building reaches, cm.
 const FARTHEST: f64 = 1e7;
 

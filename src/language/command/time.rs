@@ -7,52 +7,14 @@ use std::ops::Range;
 use super::ellipsis::first_word;
 use super::said::Said;
 use super::vocabulary::{Meaning, Verb, longest};
+use crate::sets::{Set, set};
 use crate::words::Language;
 
-const BEFORE: [&str; 11] = [
-    "before",
-    "before you",
-    "right before",
-    "right before you",
-    "just before",
-    "just before you",
-    "прежде чем",
-    "прежде чем ты",
-    "перед тем как",
-    "перед тем как ты",
-    "до того как",
-];
-const AFTER: [&str; 18] = [
-    "after",
-    "after you",
-    "right after",
-    "once",
-    "once you",
-    "when you",
-    "as soon as you",
-    "having",
-    "после того как",
-    "после того как ты",
-    "как только",
-    "как только ты",
-    "когда",
-    "когда ты",
-    "сразу как",
-    "как",
-    "лишь только",
-    "едва",
-];
+static BEFORE: Set = Set::named("BeforeDoing");
+static AFTER: Set = Set::named("AfterDoing");
 
 /// What an order that waits is followed by.
-pub(super) const UNTIL: [&str; 7] = [
-    "until",
-    "till",
-    "unless and until",
-    "пока",
-    "пока не",
-    "до тех пор пока",
-    "до тех пор пока не",
-];
+pub(super) static UNTIL: Set = Set::named("Until");
 
 /// «придёт», «откроется»: what another does; what the robot is told is «приедешь».
 pub(super) fn is_of_another(key: &str) -> bool {
@@ -62,32 +24,9 @@ pub(super) fn is_of_another(key: &str) -> bool {
 /// A time of the clock or a span of it, at which or for which something is to be done: «через пять минут», "for two
 /// hours", "tomorrow". «Подожди минуту» is but a way to say that it should wait.
 pub(super) fn of_the_clock(said: &Said) -> Option<Range<usize>> {
-    const UNITS: [&str; 10] =
-        ["second", "minute", "hour", "day", "week", "секунд", "минут", "час", "день", "дня"];
-    const SPANS: [&str; 10] =
-        ["in", "for", "after", "every", "через", "на", "в течение", "каждые", "каждую", "каждый"];
-    const TIMES: [&str; 20] = [
-        "tomorrow",
-        "tonight",
-        "later today",
-        "at noon",
-        "at midnight",
-        "in the evening",
-        "in the morning",
-        "every day",
-        "every morning",
-        "every evening",
-        "завтра",
-        "послезавтра",
-        "вечером",
-        "утром",
-        "ночью",
-        "в полдень",
-        "в полночь",
-        "через полчаса",
-        "каждое утро",
-        "каждый вечер",
-    ];
+    static UNITS: Set = Set::named("UnitOfTime");
+    static SPANS: Set = Set::named("BeforeSpan");
+    static TIMES: Set = Set::named("TimeOfDay");
     let unit = |n: usize| {
         said.keys.get(n).is_some_and(|key| UNITS.iter().any(|unit| key.starts_with(unit)))
     };
@@ -113,7 +52,7 @@ pub(super) fn of_the_clock(said: &Said) -> Option<Range<usize>> {
         let span = n + said.phrase(n, &SPANS)?;
         let number = (span..span + 3).find(|&n| unit(n))?;
         // "in a second", «на минутку»
-        let soon = number == span || said.is(span, &["a", "one", "the", "just", "минутку"]);
+        let soon = number == span || said.is(span, set!("SoonSpan"));
         let told = !said.keys[number].ends_with("ку") && (!soon || said.is(n, &["через"]));
         (told && !waits || waits && n > least && !soon).then_some(n..number + 1)
     })
@@ -121,26 +60,7 @@ pub(super) fn of_the_clock(said: &Said) -> Option<Range<usize>> {
 
 /// "Tell me when you have found the keys": each order ends with a report.
 pub(super) fn told_when(said: &Said) -> Option<String> {
-    const TELL: [&str; 18] = [
-        "tell me",
-        "let me know",
-        "inform me",
-        "report",
-        "report to me",
-        "report back",
-        "say",
-        "notify me",
-        "сообщи",
-        "сообщи мне",
-        "скажи",
-        "скажи мне",
-        "доложи",
-        "доложи мне",
-        "дай знать",
-        "дай мне знать",
-        "сообщите",
-        "скажите",
-    ];
+    static TELL: Set = Set::named("TellMe");
     let begin = first_word(said, &(0..said.keys.len()))?;
     let when = begin + said.phrase(begin, &TELL)?;
     let one = when + said.phrase(when, &AFTER)?;
@@ -154,22 +74,7 @@ pub(super) fn told_when(said: &Said) -> Option<String> {
 /// "Go to the bedroom, but first switch off the lamp", «прежде чем ехать в спальню, выключи лампу», "close the door
 /// before leaving the room": in the order of time.
 pub(super) fn in_time(said: &Said) -> Option<String> {
-    const FIRST: [&str; 14] = [
-        "but first",
-        "but before that",
-        "but before you go",
-        "but before you do",
-        "before that",
-        "но сначала",
-        "но сперва",
-        "но прежде",
-        "но перед этим",
-        "а перед этим",
-        "а сначала",
-        "а до этого",
-        "только сначала",
-        "only first",
-    ];
+    static FIRST: Set = Set::named("ButFirst");
     let end = said.keys.len();
     let cut = (1..end).find_map(|at| Some((at, said.phrase(at, &FIRST)?)));
     if let Some((at, taken)) = cut.filter(|(at, taken)| at + taken < end) {
@@ -226,28 +131,15 @@ fn in_order(first: &str, later: &str) -> String {
 /// The verb of command that an English gerund or participle at a word comes from, and the word behind it: "leaving",
 /// "have closed", "picking up".
 fn of_verb(said: &Said, at: usize) -> Option<(usize, String)> {
-    const IRREGULAR: [(&str, &str); 12] = [
-        ("taken", "take"),
-        ("brought", "bring"),
-        ("found", "find"),
-        ("gone", "go"),
-        ("left", "leave"),
-        ("shut", "shut"),
-        ("put", "put"),
-        ("got", "get"),
-        ("gotten", "get"),
-        ("laid", "lay"),
-        ("driven", "drive"),
-        ("set", "set"),
-    ];
+    static IRREGULAR: Set = Set::named("Participle");
     // "Once you are in the hall", «когда будешь в коридоре»
     let placed = matches!(said.meaning(at + 1), Some((_, Meaning::Link(_))));
-    if placed && said.is(at, &["are", "re", "get", "будешь", "окажешься"]) {
+    if placed && said.is(at, set!("BeingThere")) {
         return Some((at + 1, Language::of(&said.keys[at]).pick("поезжай", "go").to_owned()));
     }
-    let have = usize::from(said.is(at, &["have", "ve", "having"]));
+    let have = usize::from(said.is(at, set!("Have")));
     let key = said.keys.get(at + have)?.as_str();
-    let irregular = IRREGULAR.iter().find(|(form, _)| have > 0 && *form == key);
+    let irregular = IRREGULAR.meant().iter().find(|(form, _)| have > 0 && *form == key);
     let stems = [key.strip_suffix("ing"), key.strip_suffix("ed"), key.strip_suffix('d')];
     let mut bases: Vec<String> =
         irregular.map(|(_, base)| (*base).to_owned()).into_iter().collect();

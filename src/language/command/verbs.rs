@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::vocabulary::{Meaning, Verb, is_wished, longest, verbs};
+use crate::sets::Set;
 use crate::units::name_key;
 use crate::words::word_ranges;
 
@@ -58,86 +59,12 @@ pub(super) fn meaning_at(keys: &[String], at: usize) -> Option<(usize, Meaning)>
 }
 
 /// Words of a relative clause that say no more than the preposition after them.
-pub(super) const RELATIVE: [&str; 73] = [
-    "та что",
-    "что ведет",
-    "что ведут",
-    "который ведет",
-    "которая лежит",
-    "который лежит",
-    "которое лежит",
-    "которую положили",
-    "которые лежат",
-    "которая стоит",
-    "который стоит",
-    "которое стоит",
-    "которые стоят",
-    "которая находится",
-    "который находится",
-    "которое находится",
-    "которые находятся",
-    "которая висит",
-    "который висит",
-    "что лежит",
-    "что лежат",
-    "что стоит",
-    "что стоят",
-    "что находится",
-    "что висит",
-    "которая ведет",
-    "ведущую",
-    "ведущая",
-    "ведущие",
-    "лежащую",
-    "лежащий",
-    "лежащее",
-    "лежащие",
-    "стоящую",
-    "стоящий",
-    "стоящее",
-    "стоящие",
-    "that is",
-    "that s",
-    "that are",
-    "which is",
-    "which are",
-    "that lies",
-    "that stands",
-    "that leads",
-    "which leads",
-    "leading",
-    "that is lying",
-    "that is standing",
-    "lying",
-    "standing",
-    "located",
-    "он",
-    "она",
-    "оно",
-    "они",
-    "он лежит",
-    "она лежит",
-    "он стоит",
-    "она стоит",
-    "они лежат",
-    "ту что",
-    "тот что",
-    "то что",
-    "те что",
-    "что",
-    "который",
-    "которая",
-    "которую",
-    "it s",
-    "it is",
-    "they are",
-    "the one",
-];
+pub(super) static RELATIVE: Set = Set::named("RelativeOpening");
 
 /// Whether a word begins what only describes: «что на столе», "the one by the window".
 pub(super) fn is_relative(keys: &[String], at: usize) -> bool {
-    const NEAREST: [&str; 5] = ["ближайш", "nearest", "closest", "farthest", "furthest"];
-    const POINTING: [&str; 8] = ["ту", "тот", "то", "те", "где", "куда", "where", "that"];
+    static NEAREST: Set = Set::named("NearestStem");
+    static POINTING: Set = Set::named("DescribingOpening");
     let said = |length: usize| keys.get(at..at + length).map(|words| words.join(" "));
     keys.get(at).is_some_and(|key| {
         POINTING.contains(&key.as_str()) || NEAREST.iter().any(|stem| key.starts_with(stem))
@@ -239,7 +166,7 @@ pub(super) fn first(text: &str) -> Option<(Range<usize>, Verb)> {
 
 /// Whether a Russian verb tells or asks what was done: «ты закрыл дверь?».
 fn tells_of_the_past(keys: &[String], at: usize) -> bool {
-    const WISHES: [&str; 3] = ["чтобы", "чтоб", "бы"];
+    static WISHES: Set = Set::named("Wishing");
     is_wished(&keys[at]) && !keys[..at].iter().any(|key| WISHES.contains(&key.as_str()))
 }
 

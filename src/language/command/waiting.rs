@@ -2,6 +2,7 @@
 //!
 //! Invariant: only a line of nothing else is one.
 
+use crate::sets::Set;
 use crate::units::name_key;
 
 /// A line about the tasks that wait.
@@ -19,48 +20,36 @@ pub enum Waiting<'t> {
     Add(&'t str),
 }
 
-const PAUSE: &str = "пауза|поставь на паузу|сделай паузу|приостанови|приостановись|приостанови задание|приостанови задания|\
-    pause|pause it|pause the task|pause the tasks|pause the queue";
-const RESUME: &str = "продолжай|продолжайте|продолжи|продолжить|продолжай задание|продолжай задания|продолжи задание|\
-    продолжи задания|возобнови|возобнови задание|возобнови задания|снимись с паузы|continue|resume|go on|carry on|\
-    continue the task|continue the tasks|resume the task|resume the tasks|resume the queue";
-const LIST: &str = "что в очереди|какие задания в очереди|какие задания ждут|очередь|очередь заданий|список заданий|\
-    покажи очередь|что осталось сделать|what is queued|what s queued|what is in the queue|what s in the queue|\
-    which tasks are waiting|what tasks are waiting|which tasks are queued|what tasks are queued|list the tasks|show the queue|queue";
-const CANCEL: &str = "отмени|отмените|отмена|отмени задание|отмени номер|отмени задание номер|cancel|cancel it|cancel the task|\
-    cancel task|cancel number|cancel task number";
-const CANCEL_ALL: &str = "отмени все|отмени все задания|очисти очередь|cancel all|cancel all tasks|cancel all the tasks|\
-    cancel everything|clear the queue";
-const LATER: &str =
-    "в очередь|добавь в очередь|поставь в очередь|позже|потом|queue|enqueue|add to the queue|later";
-
-fn is_one_of(all: &str, key: &str) -> bool {
-    all.split('|').any(|one| one.trim() == key)
-}
+static PAUSE: Set = Set::named("Pause");
+static RESUME: Set = Set::named("Resume");
+static LIST: Set = Set::named("WhatWaits");
+static CANCEL: Set = Set::named("Cancel");
+static CANCEL_ALL: Set = Set::named("CancelAll");
+static LATER: Set = Set::named("Later");
 
 /// What a line says of the tasks that wait; none for every other line.
 #[must_use]
 pub fn waiting(line: &str) -> Option<Waiting<'_>> {
     if let Some((before, order)) = line.split_once(':')
-        && is_one_of(LATER, &name_key(before))
+        && LATER.has(&name_key(before))
         && !order.trim().is_empty()
     {
         return Some(Waiting::Add(order.trim()));
     }
     let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric())).replace(['\'', '’'], " ");
     let lists = [
-        (PAUSE, Waiting::Pause),
-        (RESUME, Waiting::Resume),
-        (LIST, Waiting::List),
-        (CANCEL, Waiting::Cancel(None)),
-        (CANCEL_ALL, Waiting::CancelAll),
+        (&PAUSE, Waiting::Pause),
+        (&RESUME, Waiting::Resume),
+        (&LIST, Waiting::List),
+        (&CANCEL, Waiting::Cancel(None)),
+        (&CANCEL_ALL, Waiting::CancelAll),
     ];
-    if let Some((_, meant)) = lists.into_iter().find(|(list, _)| is_one_of(list, &key)) {
+    if let Some((_, meant)) = lists.into_iter().find(|(list, _)| list.has(&key)) {
         return Some(meant);
     }
     let (verb, number) = key.rsplit_once(' ')?;
     let number = number.parse().ok().filter(|number| *number > 0)?;
-    is_one_of(CANCEL, verb).then_some(Waiting::Cancel(Some(number)))
+    CANCEL.has(verb).then_some(Waiting::Cancel(Some(number)))
 }
 
 #[cfg(test)]

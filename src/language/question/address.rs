@@ -13,6 +13,7 @@ use super::orders::hinges;
 use super::several::{self, is_tag};
 use super::vocabulary;
 use crate::command::is_order;
+use crate::sets::set;
 use crate::words::{is_first_person, word_keys, word_ranges};
 
 /// A line without the words by which somebody is spoken to, and without particles of speech.
@@ -100,7 +101,7 @@ fn suiting(part: &str, keys: &[String]) -> Option<Range<usize>> {
 /// Whether what stands behind words that say nothing is a clause of its own, and not the rest of the one before them.
 fn begins_clause(before: &str, behind: &str) -> bool {
     let keys = word_keys(behind);
-    let of_me = |key: &String| matches!(key.as_str(), "я" | "мы" | "i" | "we");
+    let of_me = |key: &String| set!("FirstPerson").contains(&key.as_str());
     let tells = word_keys(before).iter().any(|key| of_me(key) || is_first_person(key));
     let whether = keys.get(1).is_some_and(|key| key == "ли");
     let asks = vocabulary::longest(&keys).is_some_and(|(_, mark)| mark.asks() && keys[0] != "есть");

@@ -6,6 +6,7 @@ use super::grammar::{Item, Sentence, number_of};
 use super::mark::Mark;
 use super::query::Denial;
 use super::{Asker, Claim, Head, Memory, Noun, Query, Restriction, Thing, vocabulary};
+use crate::sets::{Set, set};
 use crate::words::{word_keys, word_ranges};
 
 impl Asker<'_> {
@@ -81,8 +82,7 @@ impl Asker<'_> {
     pub(super) fn one_more(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
         let keys = word_keys(text);
         let (first, _) = keys.split_first()?;
-        let asks =
-            matches!(first.as_str(), "one" | "any" | "some") && text.trim_end().ends_with('?');
+        let asks = set!("OneOrSome").contains(&first.as_str()) && text.trim_end().ends_with('?');
         let sought = last.sought().filter(|noun| asks && !noun.head.kinds.is_empty())?;
         let place = self.bare_place(&text[word_ranges(text).first()?.end..], memory)?;
         let head = Head { kinds: sought.head.kinds.clone(), ..Head::default() };
@@ -92,34 +92,16 @@ impl Asker<'_> {
 
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
     pub(super) fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        const SMALL: [&str; 14] = [
-            "а", "и", "and", "what", "about", "how", "the", "one", "is", "are", "s", "ones", "же",
-            "then",
-        ];
-        const OTHER: [&str; 14] = [
-            "другая",
-            "другой",
-            "другое",
-            "другие",
-            "вторая",
-            "второй",
-            "второе",
-            "остальные",
-            "other",
-            "others",
-            "second",
-            "rest",
-            "another",
-            "остальное",
-        ];
+        static SMALL: Set = Set::named("AroundAnother");
+        static OTHER: Set = Set::named("Another");
         let words: Vec<&str> = key
             .split(|c: char| !c.is_alphanumeric())
             .filter(|word| {
                 !word.is_empty() && !SMALL.contains(word) && (OTHER.contains(word) || !stands(word))
             })
             .collect();
-        let asks_where = words.iter().any(|word| ["где", "where"].contains(word));
-        let rest: Vec<&&str> = words.iter().filter(|w| !["где", "where"].contains(w)).collect();
+        let asks_where = words.iter().any(|word| set!("Where").contains(word));
+        let rest: Vec<&&str> = words.iter().filter(|w| !set!("Where").contains(w)).collect();
         let (only, many) = match rest[..] {
             [only] => (only, None),
             // «А другие два?», "The other three?": just so many.
@@ -131,8 +113,7 @@ impl Asker<'_> {
         }
         // «Где первый? А второй?» of three counts on.
         let others = || self.others_of_last(memory).filter(|noun| !ranks(only) || is_one(noun));
-        let noun = match ["others", "остальные", "rest", "остальное", "другие"].contains(only)
-        {
+        let noun = match set!("OtherSeveral").contains(only) {
             true => self.rest_of_kind(memory).or_else(others)?,
             false if many.is_some() => self.rest_of_kind(memory).or_else(others)?,
             false => others()?,

@@ -4,6 +4,7 @@ use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::Denial;
 use super::{Asker, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction};
+use crate::sets::set;
 use crate::words::word_keys;
 
 impl Asker<'_> {
@@ -13,7 +14,7 @@ impl Asker<'_> {
             return None;
         }
         let keys = word_keys(text);
-        let too = keys.iter().any(|key| matches!(key.as_str(), "тоже" | "также" | "too" | "well"));
+        let too = keys.iter().any(|key| set!("TooWord").contains(&key.as_str()));
         let asked = match last {
             Query::Count(_) | Query::Exists { .. } | Query::Find(_) => true,
             Query::Holds { .. } => too,
@@ -58,7 +59,7 @@ impl Asker<'_> {
             _ => false,
         };
         // «На чём стоит лампа? А на полу?» asks what is there.
-        let goes_on = ["а", "и", "and"].contains(&word_keys(text).first()?.as_str());
+        let goes_on = set!("AndWord").contains(&word_keys(text).first()?.as_str());
         if goes_on
             || !text.trim_end().ends_with('?')
             || !matches!(&sentence.items()[..], [item] if place(item))
@@ -158,8 +159,7 @@ impl Asker<'_> {
             return None;
         };
         let activity = sentence.text.trim_end_matches(['?', '.', ' ']);
-        let first =
-            sentence.keys.iter().position(|key| !matches!(&**key, "а" | "и" | "and" | "to"))?;
+        let first = sentence.keys.iter().position(|key| !set!("AndTo").contains(&&**key))?;
         let activity = &activity[sentence.words.get(first)?.start..];
         let lead = sentence.language.pick("Что можно", "What can I");
         let Ok(Query::Serving { sort, of, .. }) = self.read(&format!("{lead} {activity}?"), memory)

@@ -3,6 +3,7 @@
 //!
 //! Invariant: only a line of nothing else is an aside.
 
+use crate::sets::{named, of_kind, set};
 use crate::units::name_key;
 use crate::words::word_keys;
 
@@ -16,19 +17,14 @@ pub enum Aside {
     End,
 }
 
-const PHRASES: &[(Aside, &str)] = &[
-    (Aside::Yes, "да|ага|верно|конечно|yes|yeah|yep|sure|right"),
-    (Aside::No, "нет|не надо|не нужно|no|nope|no thanks"),
-    (Aside::Why, "почему|а почему|почему нет|почему же|why|why not"),
-    (Aside::End, "выход|exit|quit|конец"),
-];
+named!(Aside: Yes No Why End);
 
 /// The aside that a line is. What ends in a question mark only asks: «Выход?» is no farewell.
 #[must_use]
 pub fn aside(text: &str) -> Option<Aside> {
     let key = name_key(text.trim_matches(|c: char| !c.is_alphanumeric()));
-    let said = |all: &str| all.split('|').any(|one| one == key);
-    let found = PHRASES.iter().find(|(_, all)| said(all)).map(|(aside, _)| *aside)?;
+    let (name, _) = of_kind("Aside.").find(|(_, said)| *said == key)?;
+    let found = Aside::named(name)?;
     (found == Aside::Why || !text.contains('?')).then_some(found)
 }
 
@@ -42,7 +38,7 @@ pub fn behind_no(text: &str) -> Option<&str> {
 /// Whether a line begs: "Two spoons to the table, please".
 #[must_use]
 pub fn begs(text: &str) -> bool {
-    word_keys(text).iter().any(|word| matches!(word.as_str(), "please" | "пожалуйста"))
+    word_keys(text).iter().any(|word| set!("Please").contains(&word.as_str()))
 }
 
 /// Whether a particle makes a question of a line: «Дойдёшь ли ты до спальни».

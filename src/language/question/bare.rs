@@ -5,6 +5,7 @@ use super::mark::Mark;
 use super::{
     Best, Claim, Closeness, Extreme, Filter, Head, Memory, Noun, Query, Restriction, Thing,
 };
+use crate::sets::{Set, set};
 use crate::words::word_keys;
 
 /// «Какие книги в гостиной? А где чёрная?»: where such a one of what was asked for is.
@@ -38,8 +39,7 @@ pub(super) fn where_alone(sentence: &Sentence<'_>, last: &Query, memory: &Memory
 
 /// «Есть ли в спальне часы? – Да. – Какие?»: those that were asked for.
 pub(super) fn which_alone(key: &str, last: &Query) -> Option<Query> {
-    const WHICH: [&str; 6] =
-        ["какие", "а какие", "какие именно", "а какие именно", "какие же", "и какие"];
+    static WHICH: Set = Set::named("WhichOnes");
     let asks = WHICH.contains(&key.trim_end_matches(['?', '.', '!', ' ']));
     let sought = last.sought().filter(|noun| asks && !noun.head.anything)?;
     Some(Query::Find(Noun { plural: true, indefinite: true, count: None, ..sought.clone() }))
@@ -58,7 +58,7 @@ pub(super) fn which_of_all(sentence: &Sentence<'_>, last: &Query) -> Option<Quer
             _ => return None,
         }
     }
-    let denied = sentence.keys.iter().any(|key| ["t", "not", "не", "нет"].contains(&key.as_str()));
+    let denied = sentence.keys.iter().any(|key| set!("DeniesWord").contains(&key.as_str()));
     let several = subject.all || subject.plural;
     if !asks || !several || subject.head.anything {
         return None;
@@ -97,24 +97,8 @@ pub(super) fn compared_otherwise(sentence: &Sentence<'_>, last: &Query) -> Optio
 /// "There's a bag somewhere. Which room?", «Сколько кружек? – Две. – В каких комнатах?»: where the things are that were
 /// spoken of.
 pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
-    const ROOMS: [&str; 6] = [
-        "which rooms",
-        "in which rooms",
-        "in what rooms",
-        "в каких комнатах",
-        "а в каких комнатах",
-        "в каких",
-    ];
-    const ROOM: [&str; 8] = [
-        "which room",
-        "what room",
-        "in which room",
-        "in what room",
-        "which room is it",
-        "в какой комнате",
-        "а в какой комнате",
-        "в какой",
-    ];
+    static ROOMS: Set = Set::named("InWhichRooms");
+    static ROOM: Set = Set::named("InWhichRoom");
     let said = word_keys(text).join(" ");
     let told = &memory.last;
     if ROOMS.contains(&said.as_str())
@@ -129,20 +113,7 @@ pub(super) fn room_alone(text: &str, memory: &Memory) -> Option<Query> {
 
 /// «На сколько?», "By how much?": the difference of what was compared.
 pub(super) fn by_how_much(key: &str, last: &Query, told: &[Thing]) -> Option<Query> {
-    const BY: [&str; 12] = [
-        "на сколько",
-        "а на сколько",
-        "насколько",
-        "а насколько",
-        "и на сколько",
-        "by how much",
-        "and by how much",
-        "how much",
-        "by how many",
-        "how many more",
-        "how much more",
-        "and how much",
-    ];
+    static BY: Set = Set::named("ByHowMuch");
     let key = key.trim_end_matches(['?', '.', '!', ' ']);
     if !BY.contains(&key) {
         return None;

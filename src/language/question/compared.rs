@@ -2,7 +2,7 @@
 //!
 //! Invariant: whatever is compared, more of the measure wins, unless [`Extreme::is_less`] says otherwise.
 
-use crate::units::name_key;
+use crate::sets::{named, of_kind};
 
 /// What a superlative compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -114,30 +114,14 @@ impl Quantity {
     }
 }
 
-/// What says how a number is meant; only where a number follows.
-const QUANTITIES: &[(Quantity, &str)] = &[
-    (
-        Quantity::AtLeast,
-        "не меньше|не менее|не меньше чем|хотя бы|минимум|как минимум|по крайней мере|at least|no fewer than|not fewer than|no less than|not less than",
-    ),
-    (
-        Quantity::AtMost,
-        "не больше|не более|не больше чем|максимум|самое большее|at most|no more than|not more than|up to",
-    ),
-    (Quantity::MoreThan, "больше|больше чем|более|более чем|свыше|more than|over|above"),
-    (Quantity::FewerThan, "меньше|меньше чем|менее|менее чем|fewer than|less than|under|below"),
-    (
-        Quantity::Exactly,
-        "ровно|в точности|точно|только|лишь|всего|всего лишь|exactly|precisely|only|just",
-    ),
-];
+named!(Quantity: Exactly AtLeast AtMost MoreThan FewerThan);
 
 /// How the number after these words is meant, with the number of words that say so.
 pub(super) fn quantity(words: &[String]) -> Option<(usize, Quantity)> {
     (1..=words.len().min(3)).rev().find_map(|n| {
         let said = words[..n].join(" ");
-        let listed = |list: &str| list.split('|').any(|phrase| name_key(phrase) == said);
-        QUANTITIES.iter().find(|(_, list)| listed(list)).map(|(quantity, _)| (n, *quantity))
+        let (name, _) = of_kind("Quantity.").find(|(_, phrase)| *phrase == said)?;
+        Quantity::named(name).map(|quantity| (n, quantity))
     })
 }
 

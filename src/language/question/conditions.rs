@@ -1,46 +1,20 @@
 //! The words by which an order hinges on something, and where a second condition begins.
 
 use crate::command::is_order;
+use crate::sets::Set;
 use crate::words::{phrase_at, word_keys, word_ranges};
 
 /// What refers to a condition that was asked: it is so, or it is not.
-pub(super) const SO: [&str; 12] = [
-    "если да",
-    "если так",
-    "если это так",
-    "если есть",
-    "если нашел",
-    "если найдешь",
-    "if so",
-    "if yes",
-    "if it is",
-    "if they are",
-    "if there is",
-    "if there are",
-];
+pub(super) static SO: Set = Set::named("IfSo");
 
 /// The same where it is not so.
-pub(super) const NOT_SO: [&str; 11] = [
-    "иначе",
-    "в противном случае",
-    "если нет",
-    "если же нет",
-    "если это не так",
-    "otherwise",
-    "or else",
-    "if not",
-    "if it is not",
-    "if it isn t",
-    "else",
-];
+pub(super) static NOT_SO: Set = Set::named("IfNotSo");
 
 /// What an order hinges on begins so.
-pub(super) const IF: [&str; 7] =
-    ["если", "if", "in case", "provided", "provided that", "в случае если", "unless"];
+pub(super) static IF: Set = Set::named("If");
 
 /// What is waited for; of the person and the robot itself nothing is known beforehand.
-pub(super) const WHEN: [&str; 8] =
-    ["когда", "как только", "сразу как", "when", "whenever", "once", "as soon as", "the moment"];
+pub(super) static WHEN: Set = Set::named("WhenAsCondition");
 
 /// An order under a condition behind another one.
 pub(super) struct Another<'t> {
@@ -52,8 +26,8 @@ pub(super) struct Another<'t> {
 
 /// The last condition of a text that begins with one; none where that is its only one.
 pub(super) fn another(text: &str) -> Option<Another<'_>> {
-    const BESIDE: [&str; 2] = ["и", "and"];
-    const INSTEAD: [&str; 4] = ["а", "но", "but", "or"];
+    static BESIDE: Set = Set::named("And");
+    static INSTEAD: Set = Set::named("ButOrOr");
     let (words, keys) = (word_ranges(text), word_keys(text));
     let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&key.as_str()));
     let parted = |n: usize| text[words[n - 1].end..words[n].start].contains([',', ';', '.']);

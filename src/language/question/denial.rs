@@ -10,11 +10,11 @@ use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::query::{Claim, Denial, Query, Rel};
 use super::{Answer, Said, truth as said_to_be};
+use crate::sets::{Set, set};
 use crate::words::{Language, phrase_at};
 
 /// Of what these deny nothing is left; in Russian «не» and «нет» go with them.
-const NOTHING: [&str; 9] =
-    ["nothing", "none", "nobody", "neither", "ничего", "никого", "никто", "ничто", "ни"];
+static NOTHING: Set = Set::named("NothingOrNobody");
 
 /// How often a sentence denies.
 fn denials(sentence: &Sentence<'_>) -> usize {
@@ -59,7 +59,7 @@ pub(super) fn settle(sentence: &Sentence<'_>, query: &mut Query) {
     };
     let is_english = sentence.language == Language::English;
     // The truth of a denial is asked, and "Is there nothing on it?" denies all the same.
-    let is_of_truth = ["true that", "correct that", "the case that"].into_iter().any(has);
+    let is_of_truth = set!("TrueThat").iter().any(|words| has(words));
     let is_idle = is_english && !is_of_truth && !has("nothing");
     let is_unaccounted = denials(sentence) == 1 && denied_within(query) == 0;
     if let Query::Holds { denial, .. } | Query::Exists { denial, .. } = query {

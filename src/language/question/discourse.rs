@@ -7,6 +7,7 @@ use super::lexicon::Extension;
 use super::mark::{Mark, Pronoun};
 use super::{Asker, Dimension, Noun, Passing, Query, Rel, Thing};
 use crate::report::Detail;
+use crate::sets::Set;
 use crate::words::{Case, Number, word_keys};
 
 /// What is asked of a way that was told.
@@ -203,20 +204,7 @@ fn is_whither(phrase: &Phrase) -> bool {
 }
 
 fn is_back(text: &str) -> bool {
-    const BACK: [&str; 12] = [
-        "а обратно",
-        "обратно",
-        "а назад",
-        "а в обратную сторону",
-        "а наоборот",
-        "and back",
-        "and back again",
-        "and the way back",
-        "what about the way back",
-        "and the other way",
-        "and the other way round",
-        "and vice versa",
-    ];
+    static BACK: Set = Set::named("AndBack");
     BACK.contains(&word_keys(text).join(" ").as_str())
 }
 

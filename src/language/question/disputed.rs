@@ -7,10 +7,11 @@ use super::mark::Mark;
 use super::salvage::{JOINTS, is_reported};
 use super::why::without_verdict;
 use super::{Answer, Asker, Memory, Said, vocabulary};
+use crate::sets::Set;
 use crate::words::{Language, word_keys, word_ranges};
 
 /// Words between the claim of one and that of the other.
-const BETWEEN: [&str; 7] = ["but", "and", "while", "whereas", "а", "но", "и"];
+static BETWEEN: Set = Set::named("BetweenClaims");
 
 impl Asker<'_> {
     /// Which of two claims is so, where a line tells both and asks who is right.

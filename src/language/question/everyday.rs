@@ -7,26 +7,12 @@ use std::ops::Range;
 
 use super::lexicon::{Lexicon, Meaning};
 use super::vocabulary;
+use crate::sets::Set;
 use crate::units::{InOrder as _, name_key};
 use crate::words::{Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges};
 
 /// Words that ask and are often mistyped; a letter off is still that word.
-const ASKING: [&str; 14] = [
-    "where",
-    "what",
-    "which",
-    "there",
-    "many",
-    "the",
-    "is",
-    "where s",
-    "сколько",
-    "какой",
-    "какая",
-    "какие",
-    "находится",
-    "покажи",
-];
+static ASKING: Set = Set::named("OftenMistyped");
 
 /// The text in words that the map knows, where it knows any of the same meaning.
 pub(super) fn plain<'t>(text: &'t str, lexicon: &Lexicon) -> Cow<'t, str> {
@@ -153,16 +139,7 @@ fn with_head(
 }
 
 /// Adjectives of rooms, without their endings.
-const OF_ROOMS: [(&str, &str); 8] = [
-    ("кухонн", "кухня"),
-    ("офисн", "офис"),
-    ("коридорн", "коридор"),
-    ("лабораторн", "лаборатория"),
-    ("складск", "склад"),
-    ("туалетн", "туалет"),
-    ("библиотечн", "библиотека"),
-    ("гаражн", "гараж"),
-];
+static OF_ROOMS: Set = Set::named("OfRoom");
 
 /// «кухонный стол»: a table in the kitchen, where nothing is called so.
 fn of_room(
@@ -176,7 +153,7 @@ fn of_room(
     let key = name_key(&text[words[at].clone()]);
     let ends =
         |stem: &str| key.strip_prefix(stem).is_some_and(|e| (2..=3).contains(&e.chars().count()));
-    let (_, room) = OF_ROOMS.iter().find(|(stem, _)| ends(stem))?;
+    let (_, room) = OF_ROOMS.meant().iter().find(|(stem, _)| ends(stem))?;
     let thing = &text[next.clone()];
     if taken > 0 || !is_name(room, lexicon) || !is_name(thing, lexicon) {
         return None;

@@ -12,6 +12,7 @@ use super::memory::Exchange;
 use super::query::{Best, Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Doubt, vocabulary};
 use crate::map::Entity;
+use crate::sets::{Set, set};
 use crate::words::word_keys;
 
 impl Knowledge<'_> {
@@ -372,7 +373,7 @@ impl Knowledge<'_> {
                 if noun.best.as_ref().is_some_and(most) {
                     return true;
                 }
-                let ones = words.last().is_some_and(|word| matches!(&**word, "one" | "ones"));
+                let ones = words.last().is_some_and(|word| set!("OneOrOnes").contains(&&**word));
                 let itself = matches!(noun.head.things.as_deref(), Some([_])) && is_pronoun(noun)
                     || ones && noun.head.things.is_some();
                 floors(noun) || itself && bare == Noun::default()
@@ -405,20 +406,7 @@ fn is_pronoun(noun: &Noun) -> bool {
 
 /// Whether a description shows one thing: "that shelf", «эта лампа».
 pub(super) fn is_shown(noun: &Noun) -> bool {
-    const SHOWING: [&str; 12] = [
-        "this",
-        "that",
-        "эта",
-        "этот",
-        "это",
-        "эту",
-        "этой",
-        "этом",
-        "этого",
-        "этому",
-        "этим",
-        "этою",
-    ];
+    static SHOWING: Set = Set::named("Showing");
     let keys = word_keys(&noun.text);
     keys.len() > 1 && SHOWING.contains(&keys[0].as_str())
 }
@@ -437,7 +425,7 @@ pub(super) fn is_one(noun: &Noun) -> bool {
 
 pub(super) fn without_article(said: &str) -> &str {
     let article = |(first, rest): (&str, &str)| {
-        matches!(&*first.to_lowercase(), "the" | "a" | "an").then_some(rest.len())
+        set!("TheOrA").contains(&&*first.to_lowercase()).then_some(rest.len())
     };
     let rest = said.split_once(' ').and_then(article);
     rest.map_or(said, |rest| &said[said.len() - rest..])

@@ -13,10 +13,16 @@ use super::{
     several,
 };
 use crate::map::Entity;
+use crate::sets::{Set, set};
 use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// What begins a question that goes on from the one before.
-const GOING_ON: [&str; 6] = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
+static GOING_ON: Set = Set::named("GoesOnFrom");
+
+/// Whether such words begin a text, of which this is the key.
+fn goes_on(key: &str) -> bool {
+    GOING_ON.iter().any(|b| key.strip_prefix(b).is_some_and(|rest| rest.starts_with(' ')))
+}
 
 impl Asker<'_> {
     /// «На сколько?»: by how much what was told is more than the other, whichever was named first.
@@ -110,7 +116,7 @@ impl Asker<'_> {
         // «Где лежат часы? А в гостиной есть?»: others of the kind, there.
         if let (Query::Where(of), Some(placed)) =
             (last, text.trim_end_matches(['?', ' ']).strip_suffix(" есть"))
-            && GOING_ON.iter().any(|b| key.starts_with(b))
+            && goes_on(&key)
             && let Some(place) = self.bare_place(placed, memory)
         {
             let things = of.head.things.clone().unwrap_or_default();
@@ -125,7 +131,7 @@ impl Asker<'_> {
         }
         // «Сколько телевизоров? А на кухне есть?»
         if let Some(placed) = text.trim_end_matches(['?', ' ']).strip_suffix(" есть")
-            && GOING_ON.iter().any(|b| key.starts_with(b))
+            && goes_on(&key)
             && let Some(query) = self.continued(placed, memory)
             && last
                 .sought()
@@ -166,7 +172,7 @@ impl Asker<'_> {
             return Some(query);
         }
         let of_those = self.asks_of_those(text);
-        if !GOING_ON.iter().any(|b| key.starts_with(b)) && !of_those {
+        if !goes_on(&key) && !of_those {
             return None;
         }
         // «А дверь открыта?» asks of itself, «А красная дверь?» as before.
@@ -382,7 +388,7 @@ impl Asker<'_> {
         let (asked, unknown) = memory.unheard.as_ref()?;
         let named = corrected(text).or_else(|| {
             let keys = word_keys(text);
-            let begins = GOING_ON.iter().filter_map(|b| phrase_at(&keys, 0, b.trim_end()));
+            let begins = GOING_ON.iter().filter_map(|b| phrase_at(&keys, 0, b));
             let begin = begins.max()?;
             word_ranges(text).get(begin).map(|word| &text[word.start..])
         })?;
@@ -550,7 +556,7 @@ fn query_nouns(query: &Query, act: &mut dyn FnMut(&Noun)) {
 
 /// «выше», «ниже», by place as well as by size.
 fn keys_compare(keys: &[String]) -> bool {
-    keys.iter().any(|key| matches!(key.as_str(), "выше" | "ниже"))
+    keys.iter().any(|key| set!("HigherOrLower").contains(&key.as_str()))
 }
 
 /// Whether a relation says where things are, and not what they have or whose they are.
@@ -561,32 +567,14 @@ fn is_place(place: &Restriction) -> bool {
 
 /// «А теперь?», "And now?": the last question, of the map as it has become.
 fn asks_anew(key: &str) -> bool {
-    const NOW: [&str; 8] = [
-        "а теперь",
-        "а сейчас",
-        "и теперь",
-        "теперь",
-        "and now",
-        "now",
-        "how about now",
-        "what about now",
-    ];
+    static NOW: Set = Set::named("AndNow");
     NOW.contains(&key.trim_end_matches(['?', ' ']))
 }
 
 /// What was meant in place of what was heard: "No, I meant the bed", «Нет, я имел в виду кровать».
 fn corrected(text: &str) -> Option<&str> {
-    const MEANT: [&str; 8] = [
-        "i meant",
-        "i mean",
-        "i was asking about",
-        "i asked about",
-        "я имел в виду",
-        "я имела в виду",
-        "я про",
-        "я о",
-    ];
-    const NO: [&str; 3] = ["no", "нет", "sorry"];
+    static MEANT: Set = Set::named("IMeant");
+    static NO: Set = Set::named("NoOrSorry");
     let keys = word_keys(text);
     let denied = usize::from(keys.first().is_some_and(|key| NO.contains(&key.as_str())));
     let meant = MEANT.iter().find_map(|meant| phrase_at(&keys, denied, meant))?;

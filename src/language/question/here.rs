@@ -4,29 +4,15 @@
 
 use std::borrow::Cow;
 
+use crate::sets::{Set, set};
 use crate::words::{word_keys, word_ranges};
 
 /// After these "here" is not where things are.
-const PLACED: [&str; 13] =
-    ["в", "во", "на", "у", "от", "из", "до", "on", "at", "near", "from", "between", "to"];
+static PLACED: Set = Set::named("SaysWhere");
 /// What a room has none of.
-const WHOLE: [&str; 12] = [
-    "лифт",
-    "лифты",
-    "комнат",
-    "комнаты",
-    "этажей",
-    "lift",
-    "lifts",
-    "elevator",
-    "rooms",
-    "room",
-    "floors",
-    "far",
-];
+static WHOLE: Set = Set::named("OfWholeBuilding");
 /// "Where is the bin here?" asks of the whole flat, «что здесь можно съесть» too.
-const WIDE: [&str; 10] =
-    ["где", "куда", "where", "can", "можно", "кто", "who", "which", "какие", "далеко"];
+static WIDE: Set = Set::named("AsksWidely");
 
 /// The text with "here" told by its room, which `place` names: «в Гостиной».
 pub(super) fn named(text: &str, place: impl FnOnce() -> Option<String>) -> Cow<'_, str> {
@@ -36,8 +22,8 @@ pub(super) fn named(text: &str, place: impl FnOnce() -> Option<String>) -> Cow<'
         !(n < keys.len() && small(n)) && keys.get(n).is_some_and(|key| all.contains(&key.as_str()))
     };
     let any = |all: &[&str]| (0..keys.len()).any(|n| is(n, all));
-    let here = (0..keys.len()).find(|n| is(*n, &["здесь", "тут", "here"]));
-    let begins = (0..4).any(|n| is(n, &["есть", "сколько", "is", "are", "many", "что", "what"]));
+    let here = (0..keys.len()).find(|n| is(*n, set!("HereWord")));
+    let begins = (0..4).any(|n| is(n, set!("AsksHere")));
     let Some(here) = here.filter(|_| begins && !any(&PLACED) && !any(&WHOLE) && !any(&WIDE)) else {
         return Cow::Borrowed(text);
     };

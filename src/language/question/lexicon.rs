@@ -7,6 +7,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::names::{english_name, hints, hints_of_type};
+use crate::sets::{Set, named, of_kind, set};
 use crate::units::{AreaId, Gather as _, InOrder as _, ObjectId, Point, TypeId, name_key};
 use crate::words::things::things;
 use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
@@ -80,47 +81,24 @@ pub struct Window {
     pub ends: (Point, Point),
 }
 
-/// General nouns: extension, Russian singular forms, English ones.
-const CONCEPTS: &[(Extension, &str, &str)] = &[
-    (Extension::Things, "вещь|предмет|объект|штука", "thing|object|item|stuff"),
-    (Extension::Furniture, "предмет мебели|мебель", "piece of furniture|furniture"),
-    (Extension::Rooms, "комната|помещение", "room|area"),
-    (Extension::Doors, "дверь", "door"),
-    (Extension::Passages, "проход|проём", "passage|opening|doorway"),
-    (Extension::Windows, "окно", "window"),
-    (Extension::Places, "точка|место", "place|point|spot"),
-    (Extension::Storeys, "этаж|ярус", "storey|level|floor"),
-    (
-        Extension::Building,
-        "дом|здание|квартира|карта|жильё|модель|план|строение|клиника|больница|школа|гостиница|музей",
-        "house|building|flat|apartment|home|map|this place|the whole place|whole place|entire place|premises|clinic|hospital|school|hotel|museum",
-    ),
-    (Extension::Exits, "выход|вход", "exit|way out|entrance"),
-    (
-        Extension::OuterDoors,
-        "наружный выход|улица|наружная дверь|входная дверь|уличная дверь",
-        "outer exit|street|outer door|outdoors|front door|entrance door|main door|outside door|exterior door",
-    ),
-    (Extension::Floor, "пол", "floor|ground"),
-    (Extension::Walls, "стена|стенка", "wall"),
-    (Extension::Corners, "угол|уголок", "corner"),
-    (Extension::Trait("seat"), "сиденье|место для сидения", "seat"),
-    (Extension::Trait("bed"), "место для сна|спальное место", "place to sleep|sleeping place"),
-    (Extension::Trait("container"), "ёмкость|контейнер|хранилище", "container|receptacle"),
-    (Extension::Trait("light"), "светильник", "light fixture|luminaire"),
-    (Extension::Lighting, "свет|освещение", "light|lighting"),
-    (
-        Extension::Trait("device"),
-        "прибор|устройство|техника|бытовая техника|бытовой прибор|электроприбор",
-        "device|appliance|gadget",
-    ),
-    (Extension::Trait("support"), "поверхность", "surface"),
-    (Extension::Trait("movable"), "передвижная вещь", "movable object"),
-    (Extension::Trait("portable"), "ноша", "portable thing|small object|small thing"),
-];
+named!(Extension: Things Furniture Rooms Doors Passages Windows Places Storeys Building Floor Walls Corners Exits OuterDoors
+    Lighting);
+
+/// General nouns of the language files: what each means, and the words for it. A name in small letters is a trait's.
+fn concepts() -> Vec<(Extension, Vec<&'static str>)> {
+    let mut found: Vec<(Extension, Vec<&str>)> = Vec::new();
+    for (name, word) in of_kind("Concept.") {
+        let extension = Extension::named(name).unwrap_or(Extension::Trait(name));
+        match found.iter_mut().find(|(own, _)| *own == extension) {
+            Some((_, words)) => words.push(word),
+            None => found.push((extension, vec![word])),
+        }
+    }
+    found
+}
 
 /// Nouns of what is not counted, so that answers count by another noun of the same sort.
-const MASS: [&str; 6] = ["мебель", "свет", "освещение", "техника", "furniture", "lighting"];
+static MASS: Set = Set::named("MassKind");
 
 /// All nouns of a map.
 #[derive(Debug, Clone)]
@@ -310,20 +288,18 @@ impl Lexicon {
     }
 
     fn add_concepts(&mut self) {
-        for (extension, russian, english) in CONCEPTS {
-            let mut words = english.split('|');
-            let first = words.next().unwrap_or_default();
-            for word in russian.split('|') {
+        for (extension, words) in concepts() {
+            let (russian, english): (Vec<&str>, Vec<&str>) =
+                words.into_iter().partition(|word| Language::of(word) == Language::Russian);
+            let (Some(own), Some(first)) = (russian.first(), english.first()) else { continue };
+            for word in &russian {
                 let phrase = NounPhrase::parse(word, &WordHints::default());
-                let id = self.push(*extension, phrase.clone(), first);
+                let id = self.push(extension, phrase.clone(), first);
                 self.nouns.insert(&phrase, Meaning::Kind(id));
             }
-            let own = NounPhrase::parse(
-                russian.split('|').next().unwrap_or_default(),
-                &WordHints::default(),
-            );
-            for word in english.split('|') {
-                let id = self.push(*extension, own.clone(), word);
+            let own = NounPhrase::parse(own, &WordHints::default());
+            for word in &english {
+                let id = self.push(extension, own.clone(), word);
                 self.nouns.insert_english(word, Meaning::Kind(id));
             }
         }
@@ -560,17 +536,16 @@ impl Lexicon {
     }
 }
 
-/// "Dog bed", "toy car": named like a thing for people, and no such thing.
 /// Whether a name is a word for what one stands on.
 fn is_of_floor(name: &str) -> bool {
     let key = name_key(name);
-    let words = CONCEPTS.iter().filter(|(extension, ..)| *extension == Extension::Floor);
-    words.flat_map(|(_, ru, en)| ru.split('|').chain(en.split('|'))).any(|word| word == key)
+    of_kind("Concept.").any(|(name, word)| name == "Floor" && word == key)
 }
 
+/// "Dog bed", "toy car": named like a thing for people, and no such thing.
 fn is_no_real_one(english_name: &str) -> bool {
     let first = english_name.split_whitespace().next().map(str::to_lowercase);
-    first.is_some_and(|word| ["dog", "cat", "pet", "toy", "doll", "fake"].contains(&word.as_str()))
+    first.is_some_and(|word| set!("NoRealOne").contains(&word.as_str()))
 }
 
 /// «Стул» within a sentence is «стул»; «МФУ» stays.

@@ -94,6 +94,7 @@ pub use values::{Property, ValueEntry, ValueId, Values};
 use crate::command::is_too_long;
 use crate::map::World;
 use crate::semantics::Relations;
+use crate::sets::set;
 use crate::words::{Language, everyday as everyday_words, word_keys};
 
 use grammar::{Item, Sentence};
@@ -263,12 +264,10 @@ pub struct Misread(pub Box<Unanswered>);
 
 /// Whether a line goes on from the question before and names one thing that the map lacks: «А полотенце?»
 fn is_only_named(text: &str, doubt: &Doubt) -> bool {
-    const GOING_ON: [&str; 6] = ["а", "и", "and", "what", "how", "about"];
-    const ARTICLES: [&str; 5] = ["the", "a", "an", "any", "some"];
     let Doubt::Unknown { reference, .. } = doubt else { return false };
-    let named = |key: &String| !ARTICLES.contains(&key.as_str());
+    let named = |key: &String| !set!("Article").contains(&key.as_str());
     let keys = word_keys(text);
-    let goes_on = keys.iter().take_while(|key| GOING_ON.contains(&key.as_str())).count();
+    let goes_on = keys.iter().take_while(|key| set!("GoesOn").contains(&key.as_str())).count();
     let rest: Vec<&String> = keys[goes_on..].iter().filter(|key| named(key)).collect();
     let unknown = word_keys(reference);
     goes_on > 0 && rest == unknown.iter().filter(|key| named(key)).collect::<Vec<_>>()
@@ -429,7 +428,7 @@ impl Asker<'_> {
     /// itself for a name with a number of its own ("cup 5").
     fn is_word(&self, name: &str) -> bool {
         let keys = word_keys(name);
-        let small = |key: &&String| matches!(key.as_str(), "the" | "a" | "an" | "any");
+        let small = |key: &&String| set!("AnyArticle").contains(&key.as_str());
         let keys: Vec<String> = keys.iter().skip_while(small).cloned().collect();
         let numbered = keys.split_last().filter(|(last, _)| last.chars().all(char::is_numeric));
         if let Some((_, rest)) = numbered {

@@ -3,6 +3,7 @@
 //! does not know is told to be unknown.
 
 use crate::semantics::Relations;
+use crate::sets::Set;
 use crate::units::name_key;
 use crate::words::Language;
 
@@ -11,8 +12,8 @@ use super::knowledge::Knowledge;
 use super::query::Query;
 use super::{Asker, Doubt, Fact, Said};
 
-const WHY: [&str; 6] = ["why", "почему", "отчего", "объясни", "explain", "explain why"];
-const WHY_NOT: [&str; 4] = ["why not", "почему не", "почему нет", "отчего не"];
+static WHY: Set = Set::named("Why");
+static WHY_NOT: Set = Set::named("WhyNot");
 
 /// `NAME(a, b)` with what stands before it.
 struct Noted<'t> {

@@ -6,6 +6,7 @@ use super::grammar::{Item, Phrase, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::{Best, Extreme, Head, Restriction};
 use super::{Asker, Memory, Noun, Query, Rel, Thing, memory, vocabulary};
+use crate::sets::set;
 use crate::words::{Gender, Language, word_keys};
 
 impl Asker<'_> {
@@ -289,7 +290,7 @@ impl Asker<'_> {
                 Some((_, Mark::Rank(told))) if rank.is_none() => rank = Some(told),
                 Some((_, Mark::Where)) => asks_where = true,
                 Some((_, Mark::The | Mark::One | Mark::Be | Mark::And | Mark::What)) => {}
-                _ if ["about", "а", "is", "s", "и"].contains(&sentence.keys[n].as_str()) => {}
+                _ if set!("AboutThose").contains(&sentence.keys[n].as_str()) => {}
                 _ => return None,
             }
         }

@@ -3,12 +3,13 @@
 use super::mark::Mark;
 use super::query::Rel;
 use super::vocabulary::longest;
+use crate::sets::{Set, set};
 use crate::words::word_keys;
 
 /// Whether these words, in [`name_key`](crate::units::name_key) form, begin a question: after small words, one that asks.
 pub(super) fn begins_question(words: &[String]) -> bool {
     // «Дойдёшь ли ты …?» asks; «Можешь ли открыть дверь?» is a polite command.
-    const POLITE: [&str; 6] = ["можешь", "сможешь", "можете", "сможете", "мог", "могла"];
+    static POLITE: Set = Set::named("PoliteAble");
     if let [first, second, ..] = words
         && second == "ли"
         && !POLITE.contains(&first.as_str())
@@ -16,8 +17,7 @@ pub(super) fn begins_question(words: &[String]) -> bool {
         return true;
     }
     // «Где-то был мой зонтик» tells.
-    if words.get(1).is_some_and(|word| matches!(word.as_str(), "то" | "нибудь" | "либо"))
-    {
+    if words.get(1).is_some_and(|word| set!("Particle").contains(&word.as_str())) {
         return false;
     }
     let mut at = 0;
@@ -77,7 +77,7 @@ pub(super) fn asks_at_once(words: &[String]) -> bool {
 /// «Скажите, а чайник электрический?»: who begs to be told and asks gives no order.
 pub(super) fn begs_to_tell(text: &str) -> bool {
     let first = word_keys(text).into_iter().next().unwrap_or_default();
-    let tells = ["скажи", "подскажи"].iter().any(|stem| first.starts_with(stem));
+    let tells = set!("TellStem").iter().any(|stem| first.starts_with(stem));
     tells && text.trim_end().ends_with('?')
 }
 
@@ -111,21 +111,7 @@ pub(super) fn asks_to_tell(words: &[String]) -> bool {
 
 /// Whether these words of [`Mark::Can`] ask what may or can be done, and not the robot to do it.
 fn asks_leave(words: &[String]) -> bool {
-    const ROBOT: [&str; 13] = [
-        "could you",
-        "would you",
-        "will you",
-        "можешь",
-        "можешь ли",
-        "сможешь",
-        "могли бы",
-        "мог бы",
-        "can",
-        "can you",
-        "could",
-        "able",
-        "possible",
-    ];
+    static ROBOT: Set = Set::named("AsksRobot");
     !ROBOT.contains(&words.join(" ").as_str())
 }
 
@@ -135,7 +121,7 @@ fn asks_way(words: &[String]) -> bool {
     let Some((taken, Mark::Move)) = longest(&words[you..]) else { return false };
     let next = longest(&words[you + taken..]).map(|(_, mark)| mark);
     // "Can you get into the office?" asks; "Can you get to it?" may send.
-    let into = |word: &String| matches!(word.as_str(), "into" | "in" | "inside" | "past");
+    let into = |word: &String| set!("IntoOrPast").contains(&word.as_str());
     if words.get(you).is_some_and(|word| word == "get") && words.get(you + taken).is_some_and(into)
     {
         return true;

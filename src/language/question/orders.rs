@@ -8,6 +8,7 @@ use super::several::sentences;
 use super::{Asker, Memory, cut_off, opening};
 use crate::command::{self, is_command, is_order, is_order_by};
 use crate::paraphrase::Paraphrases;
+use crate::sets::{Set, set};
 use crate::words::{Case, Language, is_first_person, phrase_at, word_keys, word_ranges};
 
 /// What parts the halves of a sentence.
@@ -36,7 +37,7 @@ impl Asker<'_> {
                 return None;
             }
             // "Please go and see …": whither is not said; to what is asked of, where that is one thing.
-            let polite = |key: &String| ["please", "пожалуйста", "just"].contains(&key.as_str());
+            let polite = |key: &String| set!("PleaseOrJust").contains(&key.as_str());
             let bare = word_keys(order).iter().filter(|key| !polite(key)).count() < 2;
             let order = match bare {
                 true if is_order(order) => self.way_to_what_is_asked(&question, memory),
@@ -76,9 +77,9 @@ impl Asker<'_> {
 
     /// A question and the order behind it, whatever joins them: a word, a mark, or both.
     fn question_and_order<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
-        const JOINTS: [&str; 9] = ["и", "and", "then", "потом", "затем", "а", "но", "but", "also"];
+        static JOINTS: Set = Set::named("JoinsOrders");
         /// "Which doors are locked, open or closed" is one question.
-        const OR: [&str; 3] = ["or", "или", "либо"];
+        static OR: Set = Set::named("Or");
         let (words, keys) = (word_ranges(text), word_keys(text));
         (2..keys.len()).find_map(|at| {
             let is_marked = text[words[at - 1].end..words[at].start].contains(MARKS);
@@ -179,9 +180,8 @@ fn asked(claim: &str) -> Option<String> {
         true => "",
         false => &claim[words[range.start].start..words[range.end - 1].end],
     };
-    let is =
-        keys.iter().position(|key| matches!(key.as_str(), "is" | "are" | "s" | "isn" | "aren"))?;
-    let denies = matches!(keys[is].as_str(), "isn" | "aren") && keys.get(is + 1)? == "t";
+    let is = keys.iter().position(|key| set!("IsOrIsNot").contains(&key.as_str()))?;
+    let denies = set!("IsNot").contains(&keys[is].as_str()) && keys.get(is + 1)? == "t";
     let (what, state) = (said(0..is), said(is + 1 + usize::from(denies)..words.len()));
     let be = match keys[is].as_str() {
         "are" | "aren" => "are",
@@ -194,7 +194,7 @@ fn asked(claim: &str) -> Option<String> {
 /// Whether words only refer to a condition that was asked: "if so", «иначе».
 pub(super) fn hinges(keys: &[String]) -> bool {
     let words = keys.join(" ");
-    SO.iter().chain(&NOT_SO).any(|phrase| *phrase == words)
+    SO.iter().chain(NOT_SO.iter()).any(|phrase| *phrase == words)
 }
 
 /// What is to be done where the answer before was yes, and where it was no.
@@ -215,7 +215,7 @@ impl<'t> Hinged<'t> {
 /// Orders that hinge on the answer before them: "If so, close it. Otherwise …", «Иначе принеси вилку».
 #[must_use]
 pub fn hinged(text: &str) -> Option<Hinged<'_>> {
-    const JOINTS: [&str; 7] = ["and", "и", "а", "но", "то", "тогда", "then"];
+    static JOINTS: Set = Set::named("JoinsCondition");
     let (words, keys) = (word_ranges(text), word_keys(text));
     let joint = |n: &usize| keys.get(*n).is_some_and(|key| JOINTS.contains(&key.as_str()));
     let behind = |from: usize| (from..=keys.len()).find(|n| !joint(n)).unwrap_or(keys.len());
@@ -274,72 +274,12 @@ pub(super) fn is_under_condition(text: &str) -> bool {
 /// An order under a condition; none where the text has none, or orders nothing under it.
 #[must_use]
 pub fn conditional(text: &str) -> Option<Conditional> {
-    const PERSONS: [&str; 7] = ["you", "i", "we", "ты", "я", "мы", "вы"];
+    static PERSONS: Set = Set::named("Person");
     /// Behind these "if" asks.
-    const ASKS: [&str; 14] = [
-        "see",
-        "check",
-        "me",
-        "us",
-        "know",
-        "out",
-        "ask",
-        "tell",
-        "report",
-        "look",
-        "проверь",
-        "узнай",
-        "скажи",
-        "посмотри",
-    ];
-    const TELLS: [&str; 12] = [
-        "tell me",
-        "let me know",
-        "report",
-        "inform me",
-        "notify me",
-        "call me",
-        "доложи",
-        "сообщи",
-        "скажи",
-        "скажи мне",
-        "дай знать",
-        "позови меня",
-    ];
-    const SMALL: [&str; 14] = [
-        "и",
-        "а",
-        "но",
-        "то",
-        "тогда",
-        "and",
-        "but",
-        "then",
-        "please",
-        "пожалуйста",
-        "just",
-        "просто",
-        "робот",
-        "robot",
-    ];
-    const NOTHING: [&str; 16] = [
-        "ничего",
-        "ничего не делай",
-        "не надо",
-        "не нужно",
-        "оставь как есть",
-        "не трогай",
-        "do nothing",
-        "leave it",
-        "leave it alone",
-        "leave it as it is",
-        "never mind",
-        "don t",
-        "don t do anything",
-        "leave it be",
-        "не трогай ее",
-        "не трогай его",
-    ];
+    static ASKS: Set = Set::named("AsksToLook");
+    static TELLS: Set = Set::named("TellWhenSo");
+    static SMALL: Set = Set::named("BeforeOrder");
+    static NOTHING: Set = Set::named("DoNothing");
     if command::is_too_long(text) {
         return None;
     }
@@ -437,7 +377,7 @@ pub fn conditional(text: &str) -> Option<Conditional> {
             .find(|&n| (parted(n) || keys[n - 1] == "then") && is_order(&text[words[n].start..]));
         let first = said(0..at).filter(|first| word_ranges(first).len() > 1);
         let claim: Vec<&str> = (from..next.unwrap_or(keys.len()))
-            .filter(|&n| !matches!(keys[n].as_str(), "не" | "then" | "and"))
+            .filter(|&n| !set!("AndOrNot").contains(&keys[n].as_str()))
             .map(|n| &text[words[n].clone()])
             .collect();
         let claim = claim.join(" ");
@@ -460,7 +400,7 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         // Up to what orders, behind a mark or «то», "then"; else up to the verb that follows. What is waited for may be
         // one word: «когда стемнеет».
         let least = from + if waits { 1 } else { 2 };
-        let marked = |n: &usize| parted(*n) || matches!(keys[n - 1].as_str(), "то" | "then");
+        let marked = |n: &usize| parted(*n) || set!("Then").contains(&keys[n - 1].as_str());
         let next = (least..keys.len())
             .filter(marked)
             .find(|&n| orders(n) || phrase(n, &NOTHING).is_some());
@@ -528,36 +468,10 @@ impl Conditional {
 
 /// An order and the question after it, or the question that is to be reported: «доложи, что ты видишь».
 fn order_and_question(text: &str) -> Option<(&str, String)> {
-    const TELL: [&str; 24] = [
-        "скажи",
-        "скажите",
-        "расскажи",
-        "сообщи",
-        "доложи",
-        "посмотри",
-        "глянь",
-        "проверь",
-        "узнай",
-        "выясни",
-        "tell me",
-        "tell us",
-        "let me know",
-        "report",
-        "report back",
-        "say",
-        "check",
-        "look",
-        "see",
-        "find out",
-        "describe",
-        "tell",
-        "опиши",
-        "перечисли",
-    ];
+    static TELL: Set = Set::named("TellOrLook");
     /// Behind these stands what is to be so, and no question.
-    const THAT: [&str; 3] = ["that", "что бы", "чтобы"];
-    const ROUND: [&str; 5] =
-        ["look around", "have a look around", "look round", "осмотрись", "оглядись"];
+    static THAT: Set = Set::named("That");
+    static ROUND: Set = Set::named("LookAround");
     let (words, keys) = (word_ranges(text), word_keys(text));
     if ROUND.contains(&keys.join(" ").as_str()) {
         let question = Language::of(text).pick("Что ты видишь?", "What do you see?");
@@ -576,8 +490,9 @@ fn order_and_question(text: &str) -> Option<(&str, String)> {
         }
         let order = text[..words[at].start].trim_end();
         let mut order = order.trim_end_matches([',', ';', '.']);
-        for joint in [" и", " а", " and", " then", " потом", " затем", " мне"] {
-            order = order.strip_suffix(joint).unwrap_or(order).trim_end().trim_end_matches(',');
+        for joint in set!("BeforeTelling") {
+            let before = order.strip_suffix(joint).filter(|before| before.ends_with(' '));
+            order = before.unwrap_or(order).trim_end().trim_end_matches(',');
         }
         if at == 0 || is_order(order) {
             let tell = Language::of(text).pick("скажи, ", "tell me ");

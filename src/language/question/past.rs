@@ -6,6 +6,7 @@ use super::mark::Mark;
 use super::vocabulary::longest;
 use super::{Answer, Asker, Doubt, Memory, News, Query, Thing};
 use crate::map::Entity;
+use crate::sets::set;
 use crate::words::{Language, word_keys};
 
 impl Asker<'_> {
@@ -82,7 +83,7 @@ fn is_past(text: &str) -> bool {
 /// Whether a form of a word for being tells of the past: in Russian by its ending.
 fn tells_what_was(key: &str) -> bool {
     let active = key.strip_suffix("ся").or(key.strip_suffix("сь")).unwrap_or(key);
-    matches!(key, "was" | "were")
+    set!("Was").contains(&key)
         || active.chars().count() > 2
             && ["л", "ла", "ло", "ли"].iter().any(|end| active.ends_with(end))
 }

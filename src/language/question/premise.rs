@@ -10,29 +10,11 @@ use super::{
     opening, several,
 };
 use crate::command::has_verb;
+use crate::sets::{Set, set};
 use crate::words::{Case, Language, is_first_person, word_keys, word_ranges};
 
 /// What may stand beside.
-const SMALL: [&str; 18] = [
-    "up",
-    "down",
-    "out",
-    "inside",
-    "если",
-    "раз",
-    "сейчас",
-    "ведь",
-    "тут",
-    "if",
-    "since",
-    "as",
-    "off",
-    "back",
-    "here",
-    "stuck",
-    "over",
-    "currently",
-];
+static SMALL: Set = Set::named("BesidePremise");
 
 impl Asker<'_> {
     /// The place of «я на кухне», «сижу в гостиной», "if I'm on the sofa", "I'm off to the bathroom", where a part of a line
@@ -209,18 +191,18 @@ impl Asker<'_> {
 }
 
 fn is_joint(word: &str) -> bool {
-    matches!(word, "and" | "but" | "и" | "а" | "но")
+    set!("AndOrBut").contains(&word)
 }
 
 /// Whether a question asks of where the person is.
 pub(super) fn says_here(text: &str) -> bool {
-    word_keys(text).iter().any(|key| matches!(key.as_str(), "здесь" | "тут" | "here"))
+    word_keys(text).iter().any(|key| set!("HereWord").contains(&key.as_str()))
 }
 
 /// The same question without the word for "here".
 pub(super) fn without_here(text: &str) -> String {
     let (words, keys) = (word_ranges(text), word_keys(text));
-    let here = |key: &String| matches!(key.as_str(), "здесь" | "тут" | "here");
+    let here = |key: &String| set!("HereWord").contains(&key.as_str());
     let Some(at) = keys.iter().position(here) else { return text.to_owned() };
     let from = match at.checked_sub(1) {
         Some(before) if keys[before] == "in" => before,

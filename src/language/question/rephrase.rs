@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use super::mark::Mark;
 use super::vocabulary;
 use crate::paraphrase::Words;
+use crate::sets::{Set, set};
 use crate::words::Language;
 
 /// Puts a text plainly, where it is of the rule's construction.
@@ -28,7 +29,7 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
 
 /// «Назови по одной вещи из каждой комнаты», "Tell me two things in each room": so many are named.
 fn named_by_number(words: &Words<'_>) -> Option<String> {
-    const ONE: [&str; 5] = ["одной", "одному", "одну", "один", "одно"];
+    static ONE: Set = Set::named("NumberOne");
     let told = vocabulary::longest(&words.keys);
     let listed = match told {
         Some((taken, Mark::List)) => taken,
@@ -61,7 +62,7 @@ fn as_listed(words: &Words<'_>) -> Option<String> {
     let (noun, taken) = (0..words.keys.len()).filter(names).find_map(|noun| {
         Some((noun, vocabulary::taken_by(Mark::Listed, words.keys.get(noun + 1..)?)?))
     })?;
-    let article = noun.checked_sub(1).filter(|n| words.is(*n, &["the", "all"]));
+    let article = noun.checked_sub(1).filter(|n| words.is(*n, set!("TheOrAll")));
     let named = words.text.get(words.at[noun].clone())?;
     let those = format!("{} {named}", Language::of(named).pick("эти", "these"));
     Some(words.replaced(vec![(article.unwrap_or(noun)..noun + 1 + taken, those)]))
@@ -69,7 +70,7 @@ fn as_listed(words: &Words<'_>) -> Option<String> {
 
 /// «процедурная номер два», "room number 5": the number of its name.
 fn numbered(words: &Words<'_>) -> Option<String> {
-    let number = (1..words.keys.len() - 1).find(|n| words.is(*n, &["номер", "number"]))?;
+    let number = (1..words.keys.len() - 1).find(|n| words.is(*n, set!("NumberSign")))?;
     let counted = crate::question::grammar::number_of(&words.keys[number + 1])?;
     (words.keys[number - 1].chars().count() > 2 && !words.is(number - 1, &["the", "what"]))
         .then(|| words.replaced(vec![(number..number + 2, counted.to_string())]))
@@ -78,21 +79,20 @@ fn numbered(words: &Words<'_>) -> Option<String> {
 /// «Выключи всё в комнате», "turn everything off": all devices, where nothing is named behind.
 fn everything_switched(words: &Words<'_>) -> Option<String> {
     let switches = |key: &String| {
-        ["выключ", "отключ", "включ", "погас", "выруб"].iter().any(|stem| key.starts_with(stem))
-            || ["turn", "switch", "power", "shut"].contains(&key.as_str())
+        set!("SwitchStem").iter().any(|stem| key.starts_with(stem))
+            || set!("SwitchVerb").contains(&key.as_str())
     };
     let orders = words.keys.iter().take(4).position(switches)?;
     // A state («выключено ли всё») is asked after.
     if words.keys[orders].contains("ключен") {
         return None;
     }
-    let all = words.find(&["все", "everything"]).filter(|all| *all > orders)?;
+    let all = words.find(set!("Everything")).filter(|all| *all > orders)?;
     // «Выключи все», with nothing behind it and no ё: those that were spoken of, and without any it is asked which.
     if all + 1 == words.keys.len() && words.text[words.at[all].clone()].to_lowercase() == "все" {
         return None;
     }
-    let ends = ["в", "во", "на", "кроме", "здесь", "тут", "off", "on", "in", "down", "except"];
-    if all + 1 < words.keys.len() && !words.is(all + 1, &ends) {
+    if all + 1 < words.keys.len() && !words.is(all + 1, set!("BehindEverything")) {
         return None;
     }
     let devices = Language::of(words.text).pick("все приборы", "all devices");
@@ -104,7 +104,7 @@ fn numbers_joined(words: &Words<'_>) -> Option<String> {
     let number = |n: usize| words.keys.get(n).is_some_and(|key| key.parse::<u32>().is_ok());
     let noun = |n: usize| words.keys[n].chars().all(char::is_alphabetic);
     let joint = (2..words.keys.len()).find(|&n| {
-        words.is(n, &["и", "или", "and", "or"])
+        words.is(n, set!("AndOr"))
             && number(n - 1)
             && noun(n - 2)
             && number(n + 1)

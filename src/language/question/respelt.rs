@@ -6,6 +6,7 @@
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::{Answer, Asker, Memory, vocabulary};
+use crate::sets::Set;
 use crate::words::{self, Language, word_keys, word_ranges};
 
 /// Shorter words are too like each other.
@@ -95,7 +96,7 @@ fn unknown_keys(sentence: &Sentence<'_>) -> Vec<String> {
 
 /// Whether a noun must follow an English word: an article, whose it is, how many, a quality.
 fn precedes_noun(key: &str) -> bool {
-    const WHOSE: [&str; 7] = ["my", "your", "our", "his", "her", "their", "its"];
+    static WHOSE: Set = Set::named("PossessiveWord");
     let mark = vocabulary::longest(&[key.to_owned()]).map(|(_, mark)| mark);
     WHOSE.contains(&key)
         || key == "many"

@@ -3,49 +3,16 @@
 use super::grammar::Sentence;
 use super::query::Denial;
 use super::{Asker, Head, Memory, Noun, Query, Thing};
+use crate::sets::Set;
 use crate::words::word_keys;
 
 /// «Это все?», which a noun may follow.
-const ALL: [&str; 9] = [
-    "is that all",
-    "is this all",
-    "are those all",
-    "are these all",
-    "are they all",
-    "это все",
-    "и это все",
-    "это вообще все",
-    "and is that all",
-];
+static ALL: Set = Set::named("IsThatAll");
 
-const ELSEWHERE: [&str; 12] = [
-    "elsewhere",
-    "anywhere else",
-    "somewhere else",
-    "in other rooms",
-    "in any other room",
-    "in another room",
-    "где нибудь еще",
-    "еще где нибудь",
-    "еще где то",
-    "где то еще",
-    "в других местах",
-    "в других комнатах",
-];
+static ELSEWHERE: Set = Set::named("Elsewhere");
 
 /// «Сколько ещё?»: how many besides those that were told.
-const MORE: [&str; 10] = [
-    "how many more",
-    "how many more are there",
-    "how many more of them are there",
-    "how many others",
-    "how many others are there",
-    "сколько еще",
-    "а сколько еще",
-    "а еще сколько",
-    "сколько еще есть",
-    "сколько их еще",
-];
+static MORE: Set = Set::named("HowManyMore");
 
 impl Asker<'_> {
     /// «И это все ложки на кухне?», "Are there any more of those elsewhere?": of the kind that was told, what is left.
@@ -73,10 +40,7 @@ impl Asker<'_> {
         // What names something itself is a question of its own.
         let asks = ELSEWHERE.iter().find(|place| key.contains(**place))?;
         let rest = key.replace(asks, " ");
-        const SMALL: [&str; 22] = [
-            "are", "is", "there", "any", "more", "of", "those", "these", "them", "it", "some",
-            "one", "and", "do", "you", "have", "another", "а", "и", "есть", "они", "ли",
-        ];
+        static SMALL: Set = Set::named("AroundMore");
         if rest.split_whitespace().any(|word| !SMALL.contains(&word)) {
             return None;
         }

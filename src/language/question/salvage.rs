@@ -9,6 +9,7 @@ use super::told_aside::{Named, is_polite, is_wish, only_begs, tells};
 use super::{
     Asker, Doubt, Memory, Noun, Outcome, Query, Said, opening, premise, several, vocabulary,
 };
+use crate::sets::{Set, set};
 use crate::units::InOrder as _;
 use crate::words::{Language, word_keys, word_ranges};
 
@@ -213,10 +214,10 @@ impl Asker<'_> {
     /// съели?»
     fn without_idle_tail(&self, text: &str) -> Option<String> {
         let (words, keys) = (word_ranges(text), word_keys(text));
-        let or = keys.iter().rposition(|key| matches!(key.as_str(), "или" | "or" | "либо"))?;
+        let or = keys.iter().rposition(|key| set!("Or").contains(&key.as_str()))?;
         let tail = text.get(words.get(or + 1)?.start..)?;
         // «или нет» belongs to what is asked.
-        let is_idle = |word: &String| matches!(word.as_str(), "what" | "что" | "как" | "чего");
+        let is_idle = |word: &String| set!("IdleQuestion").contains(&word.as_str());
         let or_what = matches!(&word_keys(tail)[..], [only] if is_idle(only));
         if or < 2 || word_keys(tail).len() < 2 && !or_what {
             return None;
@@ -261,7 +262,7 @@ impl Asker<'_> {
     /// "… or am I seeing things?"
     pub(super) fn without_self_doubt<'t>(&self, text: &'t str) -> Option<&'t str> {
         let (words, keys) = (word_ranges(text), word_keys(text));
-        let or = |key: &String| matches!(key.as_str(), "или" | "or");
+        let or = |key: &String| set!("OrWord").contains(&key.as_str());
         let (first, last) = (keys.iter().position(or)?, keys.iter().rposition(or)?);
         let behind = |at: usize| words.get(at + 1).map_or("", |word| &text[word.start..]);
         let tail = behind(first);
@@ -306,8 +307,7 @@ impl Asker<'_> {
 
     fn asks(&self, text: &str) -> bool {
         let words = word_keys(text);
-        let whether =
-            |last: &[String]| ["или нет", "или не", "or not"].contains(&last.join(" ").as_str());
+        let whether = |last: &[String]| set!("OrNot").contains(&last.join(" ").as_str());
         opening::begins_question(&words)
             || tells_me(&words)
             || several::asks_in(text)
@@ -379,8 +379,7 @@ impl Asker<'_> {
 }
 
 /// Words between who says something and what is said.
-pub(super) const JOINTS: [&str; 9] =
-    ["that", "me", "us", "что", "будто", "мне", "нам", "if", "whether"];
+pub(super) static JOINTS: Set = Set::named("JoinsReport");
 
 /// A text without the words at its end that only join what is said: «Жена говорит, что».
 fn without_joint(text: &str) -> &str {
@@ -401,64 +400,15 @@ fn behind_joint(part: &str) -> &str {
 
 /// Whether words end by telling that somebody says or thinks what follows: «муж говорит, что», "my wife reckons".
 pub(super) fn is_reported(keys: &[String]) -> bool {
-    const SAYING: [&str; 36] = [
-        "mentioned",
-        "mentions",
-        "казалось",
-        "says",
-        "said",
-        "say",
-        "thinks",
-        "think",
-        "thought",
-        "reckons",
-        "reckon",
-        "claim",
-        "claims",
-        "claimed",
-        "insists",
-        "insisted",
-        "swears",
-        "swear",
-        "sworn",
-        "told",
-        "heard",
-        "believes",
-        "believe",
-        "guess",
-        "bet",
-        "мол",
-        "кажется",
-        "похоже",
-        "слышал",
-        "слышала",
-        "говорят",
-        "утверждают",
-        "уверяют",
-        "клянется",
-        "божится",
-        "якобы",
-    ];
-    const STEMS: [&str; 8] =
-        ["говор", "сказал", "утвержда", "уверя", "счита", "дума", "твердит", "спорит"];
-    const KNOWING: [&str; 10] = [
-        "know",
-        "ask",
-        "asks",
-        "wonders",
-        "wondering",
-        "check",
-        "checking",
-        "see",
-        "verify",
-        "confirm",
-    ];
+    static SAYING: Set = Set::named("Saying");
+    static STEMS: Set = Set::named("SayingStem");
+    static KNOWING: Set = Set::named("Knowing");
     let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
     let (before, joined) = keys.split_at(keys.len() - joints);
     let Some(last) = before.last() else { return false };
     let whether = joined.iter().any(|key| key == "if" || key == "whether");
     let says = SAYING.contains(&last.as_str()) || STEMS.iter().any(|stem| last.starts_with(stem));
-    let confirms = matches!(last.as_str(), "verify" | "confirm");
+    let confirms = set!("Confirm").contains(&last.as_str());
     match whether {
         true => says || KNOWING.contains(&last.as_str()),
         false => says || confirms && !joined.is_empty(),
@@ -470,9 +420,7 @@ fn tells_me(keys: &[String]) -> bool {
     match keys {
         [first, second, _, _, ..] => {
             first == "tell" && (second == "me" || second == "us")
-                || ["скажи", "подскажи", "глянь", "посмотри", "проверь"]
-                    .iter()
-                    .any(|verb| first.starts_with(verb))
+                || set!("TellStemOrLook").iter().any(|verb| first.starts_with(verb))
         }
         _ => false,
     }
@@ -480,23 +428,7 @@ fn tells_me(keys: &[String]) -> bool {
 
 /// Whether a part of a line is a clause of what stands before it: «ту, что на кухне», "bigger, than …".
 pub(super) fn goes_on(before: &str, part: &str) -> bool {
-    const POINTING: [&str; 15] = [
-        "то",
-        "тот",
-        "та",
-        "те",
-        "ту",
-        "того",
-        "той",
-        "тех",
-        "тем",
-        "тому",
-        "том",
-        "one",
-        "ones",
-        "those",
-        "everything",
-    ];
+    static POINTING: Set = Set::named("PointingOne");
     let (keys, told) = (word_keys(part), word_keys(before));
     match keys.first().map(String::as_str) {
         Some("чем" | "than") => (0..told.len()).any(|n| {

@@ -9,6 +9,7 @@ use super::{
     several,
 };
 use crate::command::is_too_long;
+use crate::sets::{Set, set};
 use crate::words::{Language, word_keys};
 
 /// Whether a question was understood, and means several things or one that the map has not.
@@ -351,7 +352,7 @@ impl Asker<'_> {
 
     /// «Хочу пить, где чашки?»: what is asked stands behind the comma; before it nothing limits the question.
     pub(super) fn after_preamble(&self, text: &str, memory: &mut Memory) -> Option<Answer> {
-        const LIMITS: [&str; 8] = ["если", "когда", "пока", "if", "when", "while", "from", "из"];
+        static LIMITS: Set = Set::named("LimitsClause");
         let first = word_keys(text).into_iter().next()?;
         if LIMITS.contains(&first.as_str()) {
             return None;
@@ -359,7 +360,7 @@ impl Asker<'_> {
         let (told, asked) = text.split_once([',', ';', '–', '—'])?;
         let words = word_keys(asked);
         // «дальше от двери, чем стол»
-        let compares = ["чем", "than"].contains(&words.first().map_or("", String::as_str));
+        let compares = set!("Than").contains(&words.first().map_or("", String::as_str));
         if words.len() < 2
             || compares
             || !opening::begins_question(&words)

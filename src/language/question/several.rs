@@ -2,6 +2,7 @@
 
 use super::mark::Mark;
 use super::{opening, vocabulary};
+use crate::sets::{Set, set};
 use crate::words::{word_keys, word_ranges};
 
 /// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.
@@ -39,7 +40,7 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
 
 /// A text without one of two things that it joins, and whether by "or": «микроволновка или тостер» without the first.
 pub(super) fn without(text: &str, one: &str) -> Option<(String, bool)> {
-    const ARTICLES: [&str; 5] = ["a", "an", "the", "any", "some"];
+    static ARTICLES: Set = Set::named("Article");
     let (words, keys) = (word_ranges(text), word_keys(text));
     let start = text.find(one)?;
     let mut from = words.iter().position(|w| w.start == start)?;
@@ -78,15 +79,15 @@ pub(super) fn asks_outright(text: &str) -> bool {
     let (words, keys) = (word_ranges(text), word_keys(text));
     // «чего-то не пойму»
     let indefinite = |n: usize| {
-        let particle = keys.get(n + 1).is_some_and(|k| matches!(&**k, "то" | "нибудь" | "либо"));
+        let particle = keys.get(n + 1).is_some_and(|k| set!("Particle").contains(&&**k));
         particle && &text[words[n].end..words[n + 1].start] == "-"
     };
     (0..keys.len()).any(|n| {
         !indefinite(n)
             && match vocabulary::longest(&keys[n..]) {
                 Some((taken, Mark::Who)) => {
-                    let asking = ["who", "whom", "whose", "кто", "кого", "кому", "кем"];
-                    taken == 1 && (asking.contains(&&*keys[n]) || keys[n].starts_with("чь"))
+                    taken == 1
+                        && (set!("AskingWho").contains(&&*keys[n]) || keys[n].starts_with("чь"))
                 }
                 Some((_, mark)) => mark.asks(),
                 None => false,
@@ -96,7 +97,7 @@ pub(super) fn asks_outright(text: &str) -> bool {
 
 /// Whether words tell that something is looked for, and ask only by that: "I can't find the kettle", «ищу свой зонт».
 pub(super) fn seeks(text: &str) -> bool {
-    const ASKING: [&str; 4] = ["where", "whereabouts", "где", "куда"];
+    static ASKING: Set = Set::named("AsksWhere");
     let keys = word_keys(text);
     if text.trim_end().ends_with('?') || keys.iter().any(|key| ASKING.contains(&key.as_str())) {
         return false;
@@ -126,7 +127,7 @@ pub fn sentences(line: &str) -> Vec<&str> {
 }
 
 fn is_joint(key: &str) -> bool {
-    matches!(key, "и" | "а" | "and" | "but")
+    set!("AndOrOnlyBut").contains(&key)
 }
 
 fn asks(words: &[String]) -> bool {
@@ -190,42 +191,10 @@ fn begins(words: &[String]) -> bool {
 /// Whether words hung on a question ask only whether what stands before is so, or beg: "isn't it", "is she right", «не так
 /// ли», «она права», "could you".
 pub(super) fn is_tag(tag: &str) -> bool {
-    const BEGGING: [&str; 10] = [
-        "won t you",
-        "will you",
-        "would you",
-        "could you",
-        "can you",
-        "do you know",
-        "please",
-        "не подскажешь",
-        "нет",
-        "разве нет",
-    ];
-    const TRUE: [&str; 14] = [
-        "right",
-        "correct",
-        "true",
-        "so",
-        "yes",
-        "yeah",
-        "правда",
-        "верно",
-        "так",
-        "да",
-        "правильно",
-        "прав",
-        "права",
-        "правы",
-    ];
-    const BEING: [&str; 14] = [
-        "is", "isn", "isnt", "are", "aren", "was", "wasn", "does", "doesn", "am", "ain", "did",
-        "didn", "do",
-    ];
-    const WHO: [&str; 17] = [
-        "it", "that", "this", "he", "she", "they", "i", "there", "это", "он", "она", "они", "я",
-        "ли", "не", "t", "ну",
-    ];
+    static BEGGING: Set = Set::named("BeggingTag");
+    static TRUE: Set = Set::named("TrueTag");
+    static BEING: Set = Set::named("BeingTag");
+    static WHO: Set = Set::named("PersonTag");
     let words: Vec<&str> = tag.split(' ').collect();
     let of = |sets: &[&[&str]]| words.iter().all(|word| sets.iter().any(|set| set.contains(word)));
     let says = words.iter().any(|word| TRUE.contains(word)) && of(&[&TRUE, &BEING, &WHO]);
@@ -240,16 +209,7 @@ pub(super) fn is_tag(tag: &str) -> bool {
 /// A question without the "isn't it?" at its end.
 pub(super) fn without_tag(text: &str) -> &str {
     // «Не могу найти часы, где они?» asks once.
-    const WHERE: [&str; 8] = [
-        "где они",
-        "где он",
-        "где она",
-        "где оно",
-        "where are they",
-        "where is it",
-        "where s it",
-        "where could they be",
-    ];
+    static WHERE: Set = Set::named("WhereTag");
     let text = without_or_not(text);
     let Some((before, tag)) = text.rsplit_once([',', '–', '—', '.', ';']) else { return text };
     let tag = word_keys(tag).join(" ");

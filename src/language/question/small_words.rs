@@ -4,6 +4,7 @@
 
 use super::mark::Mark;
 use super::vocabulary;
+use crate::sets::set;
 use crate::words;
 
 /// Whether a word, in [`name_key`](crate::units::name_key) form, that neither the map nor the vocabulary knows, may be left
@@ -29,9 +30,7 @@ fn is_sound(key: &str) -> bool {
 
 /// «эти чёртовы ключи»: an adjective that says only how the speaker feels.
 fn curses(key: &str) -> bool {
-    ["чертов", "проклят", "дурацк", "треклят", "окаянн", "злосчастн"]
-        .iter()
-        .any(|stem| key.starts_with(stem))
+    set!("Swearing").iter().any(|stem| key.starts_with(stem))
 }
 
 /// Whether the vocabulary has a word under a mark.

@@ -3,6 +3,7 @@
 use crate::map::Entity;
 use crate::names::named;
 use crate::report::Named;
+use crate::sets::{Set, set};
 use crate::units::capitalized;
 use crate::words::length;
 use crate::words::russian::{self, Preposition};
@@ -244,7 +245,7 @@ impl Knowledge<'_> {
     fn is_floor_name(&self, thing: Thing) -> bool {
         let is_map = matches!(thing, Thing::Entity(Entity::Map(_)));
         let name = || self.name(thing).to_lowercase();
-        is_map && ["floor", "level", "storey"].iter().any(|word| name().contains(word))
+        is_map && set!("StoreyNoun").iter().any(|word| name().contains(word))
     }
 
     /// The name of one storey of several where that is no more than a code: «L2».
@@ -665,27 +666,13 @@ pub(super) fn sentence(text: &str) -> String {
 
 /// Whether people do not count what a Russian phrase names: «нет мыла».
 fn is_mass(phrase: &NounPhrase) -> bool {
-    const MASS: [&str; 12] = [
-        "мыло",
-        "хлеб",
-        "соль",
-        "вино",
-        "салат",
-        "бумага",
-        "еда",
-        "посуда",
-        "обувь",
-        "молоко",
-        "сок",
-        "вода",
-    ];
+    static MASS: Set = Set::named("MassNoun");
     let head = phrase.head().unwrap_or(phrase.name()).to_lowercase();
     MASS.contains(&head.as_str())
 }
 
 /// "no bread"
 fn is_mass_in_english(name: &str) -> bool {
-    const MASS: [&str; 10] =
-        ["bread", "lettuce", "soap", "paper", "food", "wine", "salt", "milk", "juice", "water"];
+    static MASS: Set = Set::named("MassNoun");
     name.rsplit(' ').next().is_some_and(|head| MASS.contains(&head))
 }

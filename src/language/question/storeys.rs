@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use crate::map::{Entity, World};
 use crate::names::english_name;
 use crate::semantics::Relations;
+use crate::sets::{Set, named, of_kind};
 use crate::units::MapId;
 use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
@@ -20,48 +21,10 @@ enum Storey {
     Own,
 }
 
-/// A word, which storey it means, and whether it says whither.
-const WORDS: [(&str, Storey, bool); 33] = [
-    ("on this floor", Storey::Own, false),
-    ("on this storey", Storey::Own, false),
-    ("on my floor", Storey::Own, false),
-    ("on our floor", Storey::Own, false),
-    ("на этом этаже", Storey::Own, false),
-    ("на моем этаже", Storey::Own, false),
-    ("на нашем этаже", Storey::Own, false),
-    ("up one floor", Storey::Above, true),
-    ("up a floor", Storey::Above, true),
-    ("one floor higher", Storey::Above, true),
-    ("down one floor", Storey::Below, true),
-    ("down a floor", Storey::Below, true),
-    ("one floor lower", Storey::Below, true),
-    ("наверху", Storey::Above, false),
-    ("наверх", Storey::Above, true),
-    ("вверх", Storey::Above, true),
-    ("внизу", Storey::Below, false),
-    ("вниз", Storey::Below, true),
-    ("upstairs", Storey::Above, false),
-    ("downstairs", Storey::Below, false),
-    ("этажом выше", Storey::Above, false),
-    ("этажом ниже", Storey::Below, false),
-    ("на этаж выше", Storey::Above, true),
-    ("на этаж ниже", Storey::Below, true),
-    ("to the floor above", Storey::Above, true),
-    ("to the floor below", Storey::Below, true),
-    ("to the upper floor", Storey::Above, true),
-    ("to the lower floor", Storey::Below, true),
-    ("one floor up", Storey::Above, true),
-    ("one floor down", Storey::Below, true),
-    ("the floor above", Storey::Above, false),
-    ("the floor below", Storey::Below, false),
-    ("на этаже ниже", Storey::Below, false),
-];
+named!(Storey: Above Below Own);
 
 /// Before these, "upstairs" says whither.
-const MOTION: [&str; 15] = [
-    "get", "go", "come", "drive", "head", "move", "walk", "way", "bring", "take", "carry",
-    "deliver", "put", "send", "fetch",
-];
+static MOTION: Set = Set::named("MotionVerb");
 
 /// Such a word in a text: its place among the words, their number, which storey it means, whether it says whither.
 type Told = (usize, usize, Storey, bool);
@@ -70,9 +33,12 @@ fn told(keys: &[String]) -> Vec<Told> {
     let mut found = Vec::new();
     let mut at = 0;
     while at < keys.len() {
-        let here = WORDS.iter().filter_map(|(phrase, storey, whither)| {
+        let phrases = ["Storey.", "ToStorey."].into_iter().flat_map(|kind| {
+            of_kind(kind).map(move |(name, phrase)| (name, phrase, kind == "ToStorey."))
+        });
+        let here = phrases.filter_map(|(name, phrase, whither)| {
             let taken = phrase_at(keys, at, phrase)?;
-            Some((at, taken, *storey, *whither))
+            Some((at, taken, Storey::named(name)?, whither))
         });
         match here.max_by_key(|(_, taken, ..)| *taken) {
             Some(one) => {

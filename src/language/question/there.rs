@@ -9,6 +9,7 @@ use super::knowledge::Knowledge;
 use super::memory::Exchange;
 use super::query::{Noun, Query, Rel, Restriction, Thing};
 use crate::map::Entity;
+use crate::sets::set;
 use crate::words::word_keys;
 
 impl Knowledge<'_> {
@@ -153,9 +154,9 @@ impl Knowledge<'_> {
         let Some(own) = self.area_of(Thing::Robot) else { return };
         let own = Thing::Entity(Entity::Area(own));
         for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
-            let this = word_keys(&anchor.text).first().is_some_and(|word| {
-                ["this", "этой", "эта", "эту", "этом", "этот"].contains(&word.as_str())
-            });
+            let this = word_keys(&anchor.text)
+                .first()
+                .is_some_and(|word| set!("ThisOne").contains(&word.as_str()));
             if this && is_one(anchor) && self.base(&anchor.head).contains(&own) {
                 *anchor = Noun { text: std::mem::take(&mut anchor.text), ..Noun::of(vec![own]) };
             }

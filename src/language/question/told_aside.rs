@@ -6,6 +6,7 @@ use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{Asker, Doubt, Memory, Noun, Thing, opening, several};
 use crate::command::is_order;
+use crate::sets::{Set, set};
 use crate::words::{is_first_person, word_keys};
 
 /// What a part of a line names that asks nothing.
@@ -59,26 +60,7 @@ impl Asker<'_> {
 
     /// What a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that does.
     pub(super) fn names_only(&self, text: &str, memory: &Memory) -> Option<Named> {
-        const LIMITS: [&str; 18] = [
-            "если",
-            "когда",
-            "пока",
-            "кроме",
-            "без",
-            "допустим",
-            "представь",
-            "пусть",
-            "if",
-            "when",
-            "while",
-            "except",
-            "but",
-            "without",
-            "unless",
-            "suppose",
-            "assuming",
-            "imagine",
-        ];
+        static LIMITS: Set = Set::named("LimitsAside");
         let keys = word_keys(text);
         let (last, before) = match keys.split_last() {
             None => return Some(Named::default()),
@@ -208,31 +190,7 @@ fn withdrawn(items: &[Item]) -> Option<&Item> {
 
 /// "If you don't mind", «если не секрет», "while you're at it": who says so is polite, and supposes nothing.
 pub(super) fn is_polite(keys: &[String]) -> bool {
-    const POLITE: [&str; 23] = [
-        "remember",
-        "recall",
-        "wrong",
-        "mistaken",
-        "ошибаюсь",
-        "помню",
-        "mind",
-        "please",
-        "possible",
-        "ok",
-        "okay",
-        "alright",
-        "trouble",
-        "bother",
-        "может",
-        "можете",
-        "секрет",
-        "можно",
-        "трудно",
-        "сложно",
-        "против",
-        "затруднит",
-        "сложности",
-    ];
+    static POLITE: Set = Set::named("PoliteIf");
     let said = keys.join(" ");
     match keys.first().map(String::as_str) {
         Some("if" | "если") => keys.iter().any(|key| POLITE.contains(&key.as_str())),
@@ -257,7 +215,7 @@ fn tells_there_is(text: &str, keys: &[String]) -> bool {
 fn is_own_clause(keys: &[String]) -> bool {
     let Some((first, rest)) = keys.split_first() else { return false };
     let joins = first.starts_with("котор") || first == "which" || first == "that";
-    let own = |key: &String| matches!(key.as_str(), "я" | "мы" | "i" | "we");
+    let own = |key: &String| set!("FirstPerson").contains(&key.as_str());
     joins && rest.first().is_some_and(own) && !several::asks_outright(&rest.join(" "))
 }
 
@@ -274,41 +232,7 @@ pub(super) fn is_wish(keys: &[String]) -> bool {
 
 /// Whether a word is one of telling or knowing, by which a question is led in: "could you maybe tell me …".
 pub(super) fn tells(key: &str) -> bool {
-    const VERBS: [&str; 20] = [
-        "tell",
-        "say",
-        "show",
-        "remind",
-        "know",
-        "knows",
-        "check",
-        "see",
-        "explain",
-        "wondering",
-        "wonder",
-        "idea",
-        "ask",
-        "remember",
-        "guess",
-        "знаешь",
-        "знаете",
-        "знать",
-        "asked",
-        "reckon",
-    ];
-    const STEMS: [&str; 12] = [
-        "скаж",
-        "подскаж",
-        "напомн",
-        "покаж",
-        "глян",
-        "посмотр",
-        "провер",
-        "сообщ",
-        "узна",
-        "спрос",
-        "объясн",
-        "помн",
-    ];
+    static VERBS: Set = Set::named("AsideVerb");
+    static STEMS: Set = Set::named("AsideStem");
     VERBS.contains(&key) || STEMS.iter().any(|stem| key.starts_with(stem))
 }

@@ -12,6 +12,7 @@ use super::memory::Exchange;
 use super::query::{Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Asker, Memory, vocabulary};
 use crate::map::Entity;
+use crate::sets::set;
 use crate::words::{Language, Number, word_keys, word_ranges};
 
 /// What a question word without its noun asks among.
@@ -45,7 +46,7 @@ impl Asker<'_> {
         let (words, keys) = (word_ranges(text), word_keys(text));
         let at = (1..keys.len()).find(|&n| {
             let ranks = matches!(vocabulary::longest(&keys[n..]), Some((1, Mark::Rank(_))));
-            let placed = ["на", "on", "the"].contains(&keys[n - 1].as_str());
+            let placed = set!("OnOrThe").contains(&keys[n - 1].as_str());
             let ends = keys.get(n + 1).is_none_or(|next| next == "one" && n + 2 == keys.len());
             ranks && placed && ends
         })?;
@@ -73,7 +74,7 @@ impl Asker<'_> {
 /// «А на втором?», "And on the second?": a place and no more.
 fn goes_on_alone(text: &str) -> bool {
     let keys = word_keys(text);
-    let first = keys.first().is_some_and(|key| ["а", "и", "and"].contains(&key.as_str()));
+    let first = keys.first().is_some_and(|key| set!("AndWord").contains(&key.as_str()));
     first && keys.get(1).is_some_and(|key| key == "на" || key == "on")
 }
 

@@ -8,7 +8,9 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::purposes;
+use crate::sets::{Set, set};
 use crate::units::Gather as _;
+use crate::words::phrase_at;
 use crate::words::things::{Activity, Role, things};
 use Role::{Instrument, Location, Patient, Source, Theme};
 
@@ -126,25 +128,14 @@ pub(super) struct Wanted {
 
 /// «что-нибудь попить», "something to cut an apple with" among words in [`name_key`](crate::units::name_key) form.
 pub(super) fn wanted(keys: &[String]) -> Option<Wanted> {
-    const ANY: [&[&str]; 8] = [
-        &["something"],
-        &["anything"],
-        &["что", "нибудь"],
-        &["чего", "нибудь"],
-        &["что", "либо"],
-        &["что", "то"],
-        &["чего", "то"],
-        &["то"],
-    ];
-    const JOINTS: [&str; 6] = ["to", "for", "чем", "чтобы", "из", "чего"];
-    const ENDS: [&str; 6] = ["with", "from", "out", "in", "on", "of"];
+    static ANY: Set = Set::named("SomethingToUse");
+    static JOINTS: Set = Set::named("JoinsUse");
+    static ENDS: Set = Set::named("EndsUse");
     let is =
         |n: usize, words: &[&str]| keys.get(n).is_some_and(|key| words.contains(&key.as_str()));
-    let begins =
-        |at: usize, any: &[&str]| any.iter().enumerate().all(|(n, word)| is(at + n, &[word]));
     let (start, mut next) = (0..keys.len()).find_map(|at| {
-        let any = ANY.iter().find(|any| begins(at, any))?;
-        Some((at, at + any.len()))
+        let taken = ANY.iter().find_map(|any| phrase_at(keys, at, any))?;
+        Some((at, at + taken))
     })?;
     let mut joints = Vec::new();
     while is(next, &JOINTS) {
@@ -154,8 +145,7 @@ pub(super) fn wanted(keys: &[String]) -> Option<Wanted> {
     let (taken, activity) = longest(&keys[next..])?;
     let mut end = next + taken;
     // What it is done to, and a preposition whose noun is what is wanted.
-    let object =
-        |n: &usize| !is(*n, &["please", "пожалуйста", "and", "и", "from", "из", "с", "в", "на"]);
+    let object = |n: &usize| !is(*n, set!("AfterUse"));
     let stranded = (end..keys.len().min(end + 4)).find(|n| is(*n, &["with"]));
     match stranded {
         Some(with) => end = with + 1,

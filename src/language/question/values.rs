@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use crate::map::{DoorStatus, World};
+use crate::sets::Set;
 use crate::units::{InOrder as _, name_key};
 use crate::words::things::things;
 use crate::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
@@ -294,7 +295,7 @@ impl Values {
     #[must_use]
     pub fn predicate(&self, id: ValueId, gender: Gender, number: Number) -> String {
         let entry = self.entry(id);
-        let short = SHORT.iter().find(|(adjective, _)| *adjective == entry.russian);
+        let short = SHORT.meant().iter().find(|(adjective, _)| *adjective == entry.russian);
         match short {
             Some((_, stem)) => {
                 let ending = match (number, gender) {
@@ -311,16 +312,7 @@ impl Values {
 }
 
 /// Participles that stand in their short form as predicates: «дверь открыта».
-const SHORT: &[(&str, &str)] = &[
-    ("включённый", "включен"),
-    ("выключенный", "выключен"),
-    ("открытый", "открыт"),
-    ("закрытый", "закрыт"),
-    ("запертый", "заперт"),
-    ("отпертый", "отперт"),
-    ("сломанный", "сломан"),
-    ("занятый", "занят"),
-];
+static SHORT: Set = Set::named("ShortParticiple");
 
 fn all_properties(world: &World) -> impl Iterator<Item = &crate::map::Properties> {
     let objects = world.objects.values().map(|o| &o.properties);

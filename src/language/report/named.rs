@@ -1,5 +1,6 @@
 //! Names and doorways as a report and a way in words tell them: the values, without sentences.
 
+use crate::sets::set;
 use crate::words::{Case, Language, NounPhrase, PlaceSense, WordHints, english, russian};
 
 /// A name of the map in both languages.
@@ -76,7 +77,7 @@ impl Named {
     #[must_use]
     pub fn whither_storey(&self, language: Language) -> String {
         let lower = self.english.to_lowercase();
-        let is_storey = ["floor", "storey", "level"].iter().any(|word| lower.contains(word));
+        let is_storey = set!("StoreyNoun").iter().any(|word| lower.contains(word));
         match language {
             Language::Russian if self.russian.place() == PlaceSense::Upon => {
                 russian::whither(&self.russian)

@@ -4,6 +4,7 @@
 //! Invariant: [`Adjective::form`] of the gender and number that it was read from gives back the word.
 
 use super::grammar::{Animacy, Case, Gender, Number};
+use crate::sets::Set;
 
 /// How the stem ends decides between the vowels of the endings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,46 +36,7 @@ pub(crate) struct Adjective {
 /// Stems whose sibilant is followed by a stressed ending: большая – большой, not большей.
 const STRESSED_SIBILANT: [&str; 3] = ["больш", "небольш", "чуж"];
 /// Adjectives with -ой in the masculine that do not end in a sibilant: вторая – второй.
-const STRESSED: &[&str] = &[
-    "втор",
-    "шест",
-    "седьм",
-    "восьм",
-    "голуб",
-    "золот",
-    "запасн",
-    "дорог",
-    "друг",
-    "пуст",
-    "прост",
-    "цветн",
-    "резн",
-    "складн",
-    "жил",
-    "нежил",
-    "входн",
-    "выходн",
-    "основн",
-    "боков",
-    "углов",
-    "душев",
-    "больн",
-    "ночн",
-    "дневн",
-    "ручн",
-    "лесн",
-    "стальн",
-    "молод",
-    "сух",
-    "сыр",
-    "мясн",
-    "речн",
-    "морск",
-    "городск",
-    "мужск",
-    "глух",
-    "плох",
-];
+static STRESSED: Set = Set::named("StressedStem");
 const POSSESSIVE: [&str; 1] = ["трет"];
 
 impl Adjective {

@@ -12,6 +12,7 @@ use super::adjective::Adjective;
 use super::letters::{Run, cyrillic_twin, runs};
 use super::lexicon;
 use super::noun;
+use crate::sets::Set;
 use crate::units::capitalized;
 
 /// The name inside a sentence, with "the" where English wants it: "the kitchen" for Kitchen, but "Room-B", "Office 12",
@@ -78,41 +79,13 @@ pub fn plural(noun: &str) -> String {
         return format!("{before}{word}s");
     }
     let lower = word.to_lowercase();
-    const IRREGULAR: [(&str, &str); 14] = [
-        ("person", "people"),
-        ("child", "children"),
-        ("man", "men"),
-        ("woman", "women"),
-        ("foot", "feet"),
-        ("tooth", "teeth"),
-        ("mouse", "mice"),
-        ("goose", "geese"),
-        ("shelf", "shelves"),
-        ("knife", "knives"),
-        ("leaf", "leaves"),
-        ("loaf", "loaves"),
-        ("half", "halves"),
-        ("bookshelf", "bookshelves"),
-    ];
-    const SAME: [&str; 12] = [
-        "furniture",
-        "scissors",
-        "glasses",
-        "clothes",
-        "stairs",
-        "curtains",
-        "blinds",
-        "scales",
-        "water",
-        "medicine",
-        "series",
-        "shelving",
-    ];
+    static IRREGULAR: Set = Set::named("IrregularPlural");
+    static SAME: Set = Set::named("SamePlural");
     let ends = |endings: &[&str]| endings.iter().any(|e| lower.ends_with(e));
     // "keys" are many already.
     let plural = if SAME.contains(&lower.as_str()) || is_plural(word) {
         word.to_owned()
-    } else if let Some((one, many)) = IRREGULAR.iter().find(|(one, _)| lower == *one) {
+    } else if let Some((one, many)) = IRREGULAR.meant().iter().find(|(one, _)| lower == *one) {
         let kept = one.chars().zip(many.chars()).take_while(|(a, b)| a == b).count();
         word.chars().take(kept).chain(many.chars().skip(kept)).collect()
     } else if ends(&["s", "x", "z", "ch", "sh", "tomato", "potato", "mango", "hero", "echo"]) {
@@ -160,7 +133,7 @@ pub fn name_of(name: &str) -> Option<String> {
     let lower = name.to_lowercase();
     let mut english = String::new();
     let mut rest = name;
-    if let Some((russian, phrase)) = PHRASES.iter().find(|(russian, _)| {
+    if let Some((russian, phrase)) = PHRASES.meant().iter().find(|(russian, _)| {
         lower.strip_prefix(russian).is_some_and(|tail| !tail.starts_with(char::is_alphabetic))
     }) {
         english.push_str(&cased_like(name, phrase));
@@ -235,7 +208,8 @@ pub(crate) fn russian_of(english_name: &str) -> Vec<&'static str> {
     let means = |entry: &&(&'static str, lexicon::Entry)| {
         entry.1.english.iter().take(1).any(|word| *word == lower)
     };
-    let named = PHRASES.iter().filter(|(_, english)| *english == lower).map(|(word, _)| *word);
+    let named =
+        PHRASES.meant().iter().filter(|(_, english)| *english == lower).map(|(word, _)| *word);
     named
         .chain(lexicon::all().filter(|entry| means(&entry)).map(|(word, _)| word))
         .take(2)
@@ -252,7 +226,8 @@ fn word_of(word: &str) -> Option<String> {
         return Some(cased_like(word, english));
     }
     let masculine = Adjective::read(&lower).map(|adjective| adjective.masculine());
-    let adjective = masculine.and_then(|m| ADJECTIVES.iter().find(|(russian, _)| *russian == m));
+    let adjective =
+        masculine.and_then(|m| ADJECTIVES.meant().iter().find(|(russian, _)| *russian == m));
     if let Some((_, english)) = adjective {
         return Some(cased_like(word, english));
     }
@@ -270,62 +245,9 @@ fn plural_of(word: &str) -> Option<String> {
 }
 
 /// Names that are one thing in English.
-const PHRASES: &[(&str, &str)] = &[
-    ("письменный стол", "desk"),
-    ("прикроватная тумбочка", "bedside table"),
-    ("книжный шкаф", "bookcase"),
-    ("книжная полка", "bookshelf"),
-    ("платяной шкаф", "wardrobe"),
-    ("шкаф-бар", "bar cabinet"),
-    ("шкаф-купе", "sliding wardrobe"),
-    ("кресло-качалка", "rocking chair"),
-    ("диван-кровать", "sofa bed"),
-    ("журнальный столик", "coffee table"),
-    ("обеденный стол", "dining table"),
-    ("настольная лампа", "desk lamp"),
-    ("ванная комната", "bathroom"),
-    ("входная дверь", "front door"),
-    ("офисная тумба", "office cabinet"),
-];
+static PHRASES: Set = Set::named("NameInEnglish");
 
-const ADJECTIVES: &[(&str, &str)] = &[
-    ("большой", "large"),
-    ("маленький", "small"),
-    ("малый", "small"),
-    ("новый", "new"),
-    ("старый", "old"),
-    ("красный", "red"),
-    ("белый", "white"),
-    ("чёрный", "black"),
-    ("синий", "blue"),
-    ("зелёный", "green"),
-    ("жёлтый", "yellow"),
-    ("серый", "grey"),
-    ("коричневый", "brown"),
-    ("голубой", "light blue"),
-    ("левый", "left"),
-    ("правый", "right"),
-    ("верхний", "upper"),
-    ("нижний", "lower"),
-    ("первый", "first"),
-    ("второй", "second"),
-    ("третий", "third"),
-    ("книжный", "book"),
-    ("кухонный", "kitchen"),
-    ("офисный", "office"),
-    ("раздвижной", "sliding"),
-    ("входной", "entrance"),
-    ("главный", "main"),
-    ("круглый", "round"),
-    ("деревянный", "wooden"),
-    ("стеклянный", "glass"),
-    ("обеденный", "dining"),
-    ("детский", "children's"),
-    ("настенный", "wall"),
-    ("напольный", "floor"),
-    ("мягкий", "soft"),
-    ("мусорный", "rubbish"),
-];
+static ADJECTIVES: Set = Set::named("AdjectiveInEnglish");
 
 fn cased_like(written: &str, english: &str) -> String {
     if written.starts_with(char::is_uppercase) { capitalized(english) } else { english.to_owned() }

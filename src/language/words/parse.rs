@@ -15,72 +15,13 @@ use super::lexicon;
 use super::noun::{self, Known, Noun};
 use super::number::Cardinal;
 use super::phrase::{NounPhrase, Piece};
+use crate::sets::Set;
 
 /// Words after which a tail begins.
-const PREPOSITIONS: [&str; 24] = [
-    "у",
-    "в",
-    "во",
-    "на",
-    "с",
-    "со",
-    "для",
-    "из",
-    "под",
-    "над",
-    "при",
-    "к",
-    "ко",
-    "о",
-    "об",
-    "от",
-    "до",
-    "за",
-    "по",
-    "без",
-    "около",
-    "возле",
-    "рядом",
-    "между",
-];
+static PREPOSITIONS: Set = Set::named("EndsName");
 
 /// First parts of compounds that never decline.
-const FIXED_FIRST: [&str; 34] = [
-    "бар",
-    "мастер",
-    "штаб",
-    "дизель",
-    "стоп",
-    "мини",
-    "макси",
-    "супер",
-    "веб",
-    "видео",
-    "аудио",
-    "фото",
-    "арт",
-    "бизнес",
-    "конференц",
-    "пресс",
-    "интернет",
-    "онлайн",
-    "лаунж",
-    "спа",
-    "фитнес",
-    "вип",
-    "евро",
-    "экс",
-    "вице",
-    "тест",
-    "блок",
-    "зип",
-    "офис",
-    "чил",
-    "смарт",
-    "нью",
-    "медиа",
-    "кофе",
-];
+static FIXED_FIRST: Set = Set::named("FirstPart");
 
 struct Parser<'a> {
     name: &'a str,

@@ -11,6 +11,7 @@ use crate::question::query::{Denial, Filter, Head, Noun, Query, Rel, Restriction
 use crate::question::values::{Property, ValueId};
 use crate::question::{opening, vocabulary};
 use crate::report::Detail;
+use crate::sets::{Set, set};
 use crate::words::{Language, is_first_person, word_keys};
 
 impl Frame<'_, '_> {
@@ -303,8 +304,7 @@ impl Frame<'_, '_> {
             return Some(query);
         }
         // "Is there enough room on the desk for the vase?"
-        const FITS: [&str; 8] =
-            ["для", "for", "fit", "fits", "поместится", "поместятся", "уместится", "влезет"];
+        static FITS: Set = Set::named("FitsOrFor");
         let named = FITS.iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
         let what = self.spot_noun(&[Rel::To]).or_else(|| self.first()).filter(|_| named);
         let on = self.spots.iter().filter(|s| s.rel == Rel::On && !self.is_area(&s.nouns[0]));
@@ -372,7 +372,7 @@ impl Frame<'_, '_> {
 
     /// «Чем», "with", "use": what it is done with is asked for.
     fn with_what(&self) -> bool {
-        const WITH: [&str; 6] = ["чем", "with", "use", "used", "на", "on"];
+        static WITH: Set = Set::named("WithWhat");
         self.sentence.keys.iter().any(|key| WITH.contains(&key.as_str()))
     }
 
@@ -462,8 +462,7 @@ impl Frame<'_, '_> {
 
     pub(super) fn property(&self) -> Option<Query> {
         // «Чей это зонт?», "Whose umbrella is this?"
-        let whose = ["чей", "чья", "чье", "чьи", "whose"];
-        if self.sentence.keys.iter().any(|key| whose.contains(&key.as_str()))
+        if self.sentence.keys.iter().any(|key| set!("Whose").contains(&key.as_str()))
             && let Some(of) = self.first().filter(|noun| !self.is_area(noun))
         {
             return Some(Query::Property {

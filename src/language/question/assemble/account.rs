@@ -10,6 +10,7 @@ use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{Claim, Extreme, Noun, Quantity, Query, Rel, Restriction, Thing};
 use crate::question::values::Property;
+use crate::sets::{Set, set};
 use crate::words::Language;
 
 impl Frame<'_, '_> {
@@ -77,7 +78,7 @@ impl Frame<'_, '_> {
         let in_which = matches!(query, Query::MoreOf { of, .. } if !of.iter().any(placed))
             && self.nouns.iter().any(of_rooms);
         // "Whose mug is that?" asks for an owner.
-        const WHOSE: [&str; 5] = ["whose", "чей", "чья", "чье", "чьи"];
+        static WHOSE: Set = Set::named("Whose");
         let owner = |query: &Query| match query {
             Query::Property { property, .. } => *property == Property::Owner,
             _ => false,
@@ -85,7 +86,7 @@ impl Frame<'_, '_> {
         let whose =
             self.sentence.keys.iter().any(|key| WHOSE.contains(&key.as_str())) && !owner(query);
         // «А в ванной есть хоть одна?»: one of a kind that was spoken of, and not anything at all.
-        const ONE: [&str; 3] = ["один", "одна", "одно"];
+        static ONE: Set = Set::named("OneWord");
         let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();
         let one = matches!(query, Query::Exists { what, .. } if what.iter().all(bare))
             && self.sentence.keys.iter().any(|key| ONE.contains(&key.as_str()));
@@ -202,7 +203,7 @@ impl Frame<'_, '_> {
     fn denies_a_guess(&self) -> bool {
         let keys = &self.sentence.keys;
         let parted = (1..keys.len())
-            .any(|n| matches!(keys[n].as_str(), "не" | "not") && self.sentence.comma_between(n, n));
+            .any(|n| set!("Not").contains(&keys[n].as_str()) && self.sentence.comma_between(n, n));
         let guess = |(mark, at): &(Mark, usize)| {
             let place = self.spots.iter().any(|spot| spot.at == at + 1);
             let asked = self.marks.iter().any(|(m, w)| *m == Mark::Where && w < at);
@@ -213,7 +214,7 @@ impl Frame<'_, '_> {
 
     /// «А на той, где ракетка?» tells which one is meant, and does not ask where the racket is.
     fn points_to_a_place(&self) -> bool {
-        const POINTING: [&str; 8] = ["тот", "та", "те", "ту", "той", "тех", "тому", "том"];
+        static POINTING: Set = Set::named("PointingWord");
         let keys = self.sentence.keys.windows(2);
         keys.enumerate().any(|(at, pair)| {
             POINTING.contains(&pair[0].as_str())
@@ -361,9 +362,7 @@ impl Frame<'_, '_> {
     /// «Хватит ли шести стульев?», "Are there enough chairs for six?": so many or more.
     fn suffice(&self, query: &mut Query) {
         let keys = &self.sentence.keys;
-        let asks = |key: &String| {
-            ["хватит", "хватает", "хватило", "достаточно", "enough"].contains(&key.as_str())
-        };
+        let asks = |key: &String| set!("Enough").contains(&key.as_str());
         if keys.iter().any(asks) {
             query.each_noun(&mut |noun| {
                 if noun.count.is_some() && noun.quantity == Quantity::Exactly {

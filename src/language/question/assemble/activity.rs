@@ -9,6 +9,7 @@ use crate::question::mark::Mark;
 use crate::question::purposes::{self, Role};
 use crate::question::query::{Asked, Head, Noun, Query, Rel, Restriction};
 use crate::question::uses;
+use crate::sets::{Set, set};
 use crate::words::Language;
 
 impl Frame<'_, '_> {
@@ -215,21 +216,8 @@ impl Frame<'_, '_> {
     /// Which part in the activity is asked for, the likeliest first.
     fn roles_asked(&self) -> Vec<Role> {
         use Role::{Instrument, Location, Patient, Source, Theme};
-        const TO_USE: [&str; 12] = [
-            "use",
-            "used",
-            "using",
-            "need",
-            "needed",
-            "использовать",
-            "используют",
-            "используется",
-            "воспользоваться",
-            "пользуются",
-            "нужно",
-            "нужен",
-        ];
-        const PLACES: [&str; 5] = ["in", "on", "at", "into", "onto"];
+        static TO_USE: Set = Set::named("ToUse");
+        static PLACES: Set = Set::named("EndsPlaced");
         let keys = &self.sentence.keys;
         let said = |words: &[&str]| keys.iter().any(|key| words.contains(&key.as_str()));
         let pair = |first: &[&str], second: &str| {
@@ -237,7 +225,7 @@ impl Frame<'_, '_> {
         };
         // «на чём», "on what"
         let placed = keys.last().is_some_and(|key| PLACES.contains(&key.as_str()))
-            || pair(&["на", "в", "во"], "чем")
+            || pair(set!("InOrOn"), "чем")
             || pair(&["во", "на"], "что")
             || pair(&PLACES, "what");
         let with = said(&["with"]) || (said(&["чем"]) && !placed) || pair(&["с"], "чего");

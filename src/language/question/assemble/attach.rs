@@ -8,6 +8,7 @@ use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction};
 use crate::question::values::ValueId;
+use crate::sets::set;
 
 /// How that is told to which something is near: "nearest to the table", or as a place, «к столу».
 enum Nearness {
@@ -61,7 +62,7 @@ impl Frame<'_, '_> {
             let anchors = vec![there.clone()];
             // «Какая не там?»
             let denies = |two: &[String]| {
-                ["не", "not", "t"].contains(&&*two[0]) && ["там", "there"].contains(&&*two[1])
+                set!("NotWord").contains(&&*two[0]) && set!("ThereWord").contains(&&*two[1])
             };
             let negated = self.has(Mark::Which) && self.sentence.keys.windows(2).any(denies);
             noun.restrictions.push(Restriction { rel: Rel::There, anchors, negated });
@@ -308,7 +309,7 @@ impl Frame<'_, '_> {
 
     /// «какой из двух шкафов», "which of the two chairs": the number tells how many there are to choose from.
     fn chooses_of(&self) -> bool {
-        let of = |key: &String| ["из", "of"].contains(&key.as_str());
+        let of = |key: &String| set!("Of").contains(&key.as_str());
         self.has(Mark::Which) && self.sentence.keys.iter().any(of)
     }
 

@@ -8,6 +8,7 @@ use super::Subject;
 use crate::question::mark::Mark;
 use crate::question::query::{Claim, Denial, Extreme, Filter, Noun, Query, Rel, Restriction};
 use crate::question::values::ValueId;
+use crate::sets::set;
 
 impl Frame<'_, '_> {
     /// «В холодильнике пусто?», «Темно ли в спальне?»: a value in the short neuter that no noun bears is said of the place.
@@ -35,7 +36,7 @@ impl Frame<'_, '_> {
         let negated = self.has(Mark::WhyNot) || self.negated;
         // «Почему она там?» asks of its place.
         let there =
-            ["там", "there"].iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
+            set!("ThereWord").iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
         let about = match self.nouns.is_empty() && self.spots.is_empty() {
             true => None,
             false if there && self.spots.is_empty() && self.values.is_empty() => {

@@ -8,6 +8,7 @@ use super::super::lexicon::Lexicon;
 use super::super::mark::Mark;
 use super::super::query::Query;
 use super::{Frame, Referent};
+use crate::sets::Set;
 
 /// The claims of a sentence that has two.
 pub(super) fn clauses_of(
@@ -56,7 +57,7 @@ fn of_two_things(items: &[Item]) -> Option<(Vec<Item>, Vec<Item>)> {
 
 /// The same of one thing in two places, each with its own preposition.
 fn in_both_places(sentence: &Sentence<'_>, items: &[Item]) -> Option<(Vec<Item>, Vec<Item>)> {
-    const BETWEEN: [&str; 6] = ["and", "и", "а", "the", "a", "an"];
+    static BETWEEN: Set = Set::named("BetweenClauses");
     let at = items.iter().position(|item| matches!(item, Item::Place { .. }))?;
     let Item::Place { rel, nouns, either: false } = &items[at] else { return None };
     let [one, other] = &nouns[..] else { return None };

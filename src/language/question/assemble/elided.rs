@@ -6,6 +6,7 @@ use super::Frame;
 use crate::question::mark::Mark;
 use crate::question::query::{Noun, Query, Rel, Restriction};
 use crate::question::told_together::Elided;
+use crate::sets::Set;
 
 impl Frame<'_, '_> {
     /// The query with the noun that its question word lacks; none where nothing was spoken of that it could be.
@@ -48,7 +49,7 @@ impl Frame<'_, '_> {
 
     /// "Are there any in the kitchen?", «есть ли хоть одна в ванной?»: any of those, and not anything at all.
     fn is_any_of_those(&self, noun: &Noun) -> bool {
-        const ANY: [&str; 4] = ["any", "один", "одна", "одно"];
+        static ANY: Set = Set::named("AnyOrOne");
         let said = self.sentence.keys.iter().any(|key| ANY.contains(&key.as_str()));
         said && noun.head.anything
             && noun.filters.is_empty()

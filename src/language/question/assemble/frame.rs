@@ -15,6 +15,7 @@ use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Side, Thing};
 use crate::question::uses;
 use crate::question::values::{Property, ValueId};
 use crate::report::Detail;
+use crate::sets::set;
 use crate::words::everyday;
 
 /// Whether a place is none of its kind in a sentence that is denied anyway: «ни в одной комнате нет …».
@@ -53,7 +54,7 @@ fn done_to(items: &[Item], at: usize) -> bool {
 
 /// Whether a preposition governs no noun but whatever there is, "on anything", «ни на чём»; and whether that is denied, "on nothing".
 fn of_whatever(sentence: &Sentence<'_>, items: &[Item], at: usize) -> Option<bool> {
-    let denied = |key: &String| ["nothing", "ничто", "ничего"].contains(&key.as_str());
+    let denied = |key: &String| set!("NothingWord").contains(&key.as_str());
     match items.get(at + 1)? {
         Item::Mark(Mark::Anything) => Some(sentence.keys.iter().any(denied)),
         Item::Mark(Mark::What) if at > 0 && items[at - 1] == Item::Mark(Mark::Not) => Some(false),

@@ -27,6 +27,7 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Head, Noun, Query, Rel, Restriction, Sized, Thing};
 use super::told_together::Elided;
 use super::values::{Property, ValueId};
+use crate::sets::Set;
 
 /// What a pronoun means, in the relation of which it is the anchor.
 pub(super) type Referent<'a> = dyn Fn(Pronoun, Option<Rel>) -> Vec<Thing> + 'a;
@@ -335,8 +336,7 @@ impl Frame<'_, '_> {
             return None;
         }
         // "Could a bed fit in the corridor?": how things would stand on a floor is not known.
-        const FIT: [&str; 7] =
-            ["fit", "fits", "поместится", "поместятся", "уместится", "помещается", "влезет"];
+        static FIT: Set = Set::named("Fits");
         let fit = self.sentence.keys.iter().any(|key| FIT.contains(&key.as_str()));
         // Nor how much room a shelf within a thing has.
         let level = |s: &Spot| s.nouns[0].best.as_ref().is_some_and(|b| b.extreme.is_level());

@@ -11,6 +11,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Claim, Closeness, Extreme, Head, Noun, Query, Reach, Rel, Restriction, Thing,
 };
+use crate::sets::{Set, set};
 use crate::units::InOrder as _;
 use crate::words::{Case, Language};
 
@@ -278,8 +279,7 @@ impl Frame<'_, '_> {
 
     /// "How do I get out of here?"
     pub(super) fn says_out(&self) -> bool {
-        const OUT: [&str; 7] =
-            ["out", "leave", "exit", "выйти", "выбраться", "выехать", "покинуть"];
+        static OUT: Set = Set::named("WayOut");
         self.sentence.keys.iter().any(|key| OUT.contains(&key.as_str()))
     }
 
@@ -408,21 +408,11 @@ impl Frame<'_, '_> {
                 self.is_area(&s.nouns[0]) && matches!(s.rel, Rel::To | Rel::In | Rel::On | Rel::At)
             });
             let from = self.links.iter().any(|(rel, _)| *rel == Rel::From);
-            let joined = self.sentence.keys.iter().any(|key| {
-                [
-                    "соедин",
-                    "связан",
-                    "сообща",
-                    "connect",
-                    "join",
-                    "link",
-                    "гранич",
-                    "adjoin",
-                    "adjac",
-                ]
+            let joined = self
+                .sentence
+                .keys
                 .iter()
-                .any(|stem| key.starts_with(stem))
-            });
+                .any(|key| set!("JoinStem").iter().any(|stem| key.starts_with(stem)));
             if whither && (from || !joined) && !asks_where && !self.negated {
                 rooms.restrictions.iter_mut().for_each(|r| r.rel = Rel::To);
             }

@@ -9,6 +9,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{
     Best, Extreme, Filter, Head, Noun, Quantity, Query, Rel, Restriction, Thing,
 };
+use crate::sets::set;
 use crate::words::Language;
 
 impl Frame<'_, '_> {
@@ -197,8 +198,8 @@ impl Frame<'_, '_> {
     fn is_one_of(&self, at: usize) -> bool {
         let words = self.sentence.keys.windows(2);
         let of = words.into_iter().any(|pair| {
-            matches!(pair, [of, them] if ["из", "of"].contains(&of.as_str())
-                && ["них", "them", "those", "these", "двух", "обоих", "обеих"].contains(&them.as_str()))
+            matches!(pair, [of, them] if set!("Of").contains(&of.as_str())
+                && set!("ThemOrBoth").contains(&them.as_str()))
         });
         of && self.follows_which(at)
     }
@@ -410,7 +411,7 @@ impl Frame<'_, '_> {
     /// «В какой комнате ничего нет?», "Which room has nothing in it?"
     fn empty_rooms(&self) -> Option<Query> {
         let [only] = &self.nouns[..] else { return None };
-        let said = |key: &String| ["nothing", "ничего"].contains(&key.as_str());
+        let said = |key: &String| set!("Nothing").contains(&key.as_str());
         let nothing = self.has(Mark::Anything) && self.sentence.keys.iter().any(said);
         let rooms = self.is_rooms(&only.noun) && self.follows_which(only.at);
         let value = self.lexicon.values.meaning("пустой")?;
@@ -528,19 +529,7 @@ impl Frame<'_, '_> {
     pub(super) fn everything(&self) -> Option<Query> {
         let whole = self.has(Mark::All) && self.nouns.is_empty() && !self.spots.is_empty();
         // "Tell me everything that is made of glass"
-        let told = [
-            "tell",
-            "show",
-            "list",
-            "name",
-            "give",
-            "find",
-            "скажи",
-            "назови",
-            "покажи",
-            "перечисли",
-        ];
-        let listed = self.sentence.keys.iter().any(|key| told.contains(&key.as_str()))
+        let listed = self.sentence.keys.iter().any(|key| set!("TellAll").contains(&key.as_str()))
             && self.has(Mark::All)
             && self.nouns.is_empty()
             && !self.values.is_empty();
@@ -560,8 +549,7 @@ impl Frame<'_, '_> {
                 noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
             return Some(Query::Describe(self.with_rest(noun, &without)));
         }
-        let shows = ["show", "покажи", "покажите"];
-        let shown = self.sentence.keys.iter().any(|key| shows.contains(&key.as_str()))
+        let shown = self.sentence.keys.iter().any(|key| set!("ShowAll").contains(&key.as_str()))
             && self.first().is_some_and(|noun| noun.plural);
         if !self.has(Mark::List) && !shown {
             return None;

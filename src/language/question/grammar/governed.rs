@@ -7,6 +7,7 @@ use super::{Found, Parsed, Phrase, Sentence, Tok, Token, Tokens, fail};
 use crate::question::mark::Mark;
 use crate::question::query::{Filter, Head, Noun, Rel};
 use crate::question::values::ValueId;
+use crate::sets::{Set, set};
 use crate::words::{Case, Language, Number};
 
 impl Sentence<'_> {
@@ -98,7 +99,7 @@ impl Sentence<'_> {
 
     /// «комната с телевизором»: with the instrumental «с» tells what something has.
     pub(super) fn having(&self, link: &Token, phrase: &Phrase) -> Option<Rel> {
-        let with = ["с", "со"].contains(&self.keys[link.from as usize].as_str());
+        let with = set!("With").contains(&self.keys[link.from as usize].as_str());
         let joins = self.tokens.iter().any(|t| t.kind == Tok::Mark(Mark::Lead));
         let is = |case: Case| phrase.cases.iter().any(|r| r.has_case(case));
         let having = link.to - link.from == 1 && with && !joins;
@@ -177,7 +178,7 @@ impl Sentence<'_> {
 
     /// A short form of a participle, which no Russian noun takes.
     pub(super) fn is_predicate(&self, token: &Token) -> bool {
-        const STEMS: [&str; 5] = ["открыт", "закрыт", "заперт", "включен", "выключен"];
+        static STEMS: Set = Set::named("StateStem");
         let key = &self.keys[token.from as usize];
         STEMS.iter().any(|stem| {
             key.strip_prefix(stem).is_some_and(|end| ["", "а", "о", "ы"].contains(&end))

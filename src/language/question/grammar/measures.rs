@@ -7,50 +7,19 @@ use super::{Sentence, Tok, Token};
 use crate::question::mark::Mark;
 use crate::question::query::{Extreme, Rel, Sized};
 use crate::question::vocabulary;
+use crate::sets::{Set, set};
 use crate::words::phrase_at;
 
 /// Units of length in cm.
-const UNITS: [(&str, f64); 4] = [
-    ("метр|метра|метре|метров|метрах|м|metre|metres|meter|meters|m", 100.0),
-    (
-        "сантиметр|сантиметра|сантиметров|сантиметрах|см|centimetre|centimetres|centimeter|centimeters|cm",
-        1.0,
-    ),
-    ("полметра|полуметра|полуметре", 50.0),
-    ("миллиметр|миллиметра|миллиметров|мм|millimetre|millimetres|millimeter|millimeters|mm", 0.1),
+static UNITS: [(Set, f64); 4] = [
+    (Set::named("Metres"), 100.0),
+    (Set::named("Centimetres"), 1.0),
+    (Set::named("HalfMetres"), 50.0),
+    (Set::named("Millimetres"), 0.1),
 ];
 
 /// Words before a length that bound how far something is; with it a relation.
-const BOUNDS: &[&str] = &[
-    "в пределах",
-    "не дальше",
-    "не дальше чем в",
-    "не далее",
-    "не далее чем в",
-    "на расстоянии",
-    "на расстоянии до",
-    "на расстоянии не более",
-    "на расстоянии меньше",
-    "на расстоянии менее",
-    "в радиусе",
-    "ближе",
-    "ближе чем в",
-    "ближе чем на",
-    "менее чем в",
-    "меньше чем в",
-    "в",
-    "within",
-    "within a radius of",
-    "less than",
-    "no more than",
-    "not more than",
-    "no farther than",
-    "no further than",
-    "closer than",
-    "nearer than",
-    "in",
-    "at most",
-];
+static BOUNDS: Set = Set::named("Bounds");
 
 impl Sentence<'_> {
     /// A measure with the words before it, as a relation or a size; the words that it takes.
@@ -67,14 +36,14 @@ impl Sentence<'_> {
         let before = longest.max().unwrap_or(0);
         let (measure, cm, square) = self.measure(at + before)?;
         let next = self.keys.get(at + before + measure)?;
-        let anchored = ["от", "к", "from", "of", "to"].contains(&next.as_str());
+        let anchored = set!("FromOrTo").contains(&next.as_str());
         (anchored && !square)
             .then(|| (before + measure + 1, Tok::Mark(Mark::Link(Rel::Within(cm.round() as u32)))))
     }
 
     /// «выше двух метров», "wider than 80 cm"
     fn compared(&self, at: usize) -> Option<(usize, Tok)> {
-        let not = usize::from(["не", "not"].contains(&self.keys[at].as_str()));
+        let not = usize::from(set!("Not").contains(&self.keys[at].as_str()));
         let said = vocabulary::longest(self.keys.get(at + not..)?)?;
         let (word, Mark::More(extreme)) = said else { return None };
         let extreme = match extreme {
@@ -83,7 +52,7 @@ impl Sentence<'_> {
             other => other.of_size(),
         };
         // «Какие картины висят ниже метра?» asks how high they hang, not how high they are.
-        let hangs = |key: &String| ["вис", "hang", "hung"].iter().any(|stem| key.starts_with(stem));
+        let hangs = |key: &String| set!("HangStem").iter().any(|stem| key.starts_with(stem));
         let extreme = match extreme {
             Extreme::Tallest if self.keys.iter().any(hangs) => Extreme::Topmost,
             Extreme::Lowest if self.keys.iter().any(hangs) => Extreme::Bottommost,
@@ -92,7 +61,7 @@ impl Sentence<'_> {
         let than = self
             .keys
             .get(at + not + word)
-            .map_or(0, |key| usize::from(["чем", "than"].contains(&key.as_str())));
+            .map_or(0, |key| usize::from(set!("Than").contains(&key.as_str())));
         let (measure, cm, square) = self.measure(at + not + word + than)?;
         let area = matches!(extreme, Extreme::Biggest | Extreme::Smallest);
         (area == square).then(|| {
@@ -121,9 +90,9 @@ impl Sentence<'_> {
             .is_some_and(|k| k.starts_with("квадратн") || k == "кв" || k.starts_with("square"));
         let unit_at = at + taken + usize::from(square);
         let unit = key(unit_at)?;
-        let powered = ["м2", "м²", "m2", "m²"].contains(&unit);
+        let powered = set!("SquareMetre").contains(&unit);
         let plain = if powered { "m" } else { unit };
-        let (_, cm) = UNITS.iter().find(|(names, _)| names.split('|').any(|name| name == plain))?;
+        let (_, cm) = UNITS.iter().find(|(names, _)| names.has(plain))?;
         // «м» by itself may be a letter of a name.
         if taken == 0 && plain.chars().count() < 3 {
             return None;

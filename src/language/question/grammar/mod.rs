@@ -35,6 +35,7 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Best, Filter, Head, Noun, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
 use crate::map::Entity;
+use crate::sets::Set;
 use crate::units::name_key;
 use crate::words::{Case, Language, Number, Readings};
 
@@ -419,7 +420,7 @@ impl<'t> Sentence<'t> {
             None => {
                 noun.head.anything = true;
                 // «те, что на комоде», "the ones on the dresser"
-                const SEVERAL: [&str; 5] = ["те", "тех", "тем", "теми", "ones"];
+                static SEVERAL: Set = Set::named("SeveralOnes");
                 noun.plural = SEVERAL.contains(&self.keys[words.end - 1].as_str());
             }
         }

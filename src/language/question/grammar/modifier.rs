@@ -6,6 +6,7 @@ use super::{Parsed, Sentence, Tok, Token, Tokens, fail};
 use crate::question::mark::Mark;
 use crate::question::query::{Best, Extreme, Quantity, Rel};
 use crate::question::values::ValueId;
+use crate::sets::set;
 
 #[derive(Debug, Clone)]
 pub(super) enum Modifier {
@@ -93,9 +94,7 @@ impl Sentence<'_> {
                 };
             }
             // «нет чёрных стульев», "no black chairs": there is none of them.
-            Tok::Mark(Mark::Not)
-                if ["нет", "нету", "no"].contains(&&*self.keys[first.from as usize]) =>
-            {
+            Tok::Mark(Mark::Not) if set!("NoneOf").contains(&&*self.keys[first.from as usize]) => {
                 return fail(input);
             }
             Tok::Mark(Mark::Not) => {

@@ -6,13 +6,11 @@ use super::{Parsed, Phrase, Sentence, Tok, Token, Tokens, begins_noun};
 use crate::question::mark::{Mark, Pronoun};
 use crate::question::query::{Noun, Rel};
 use crate::question::vocabulary;
+use crate::sets::{Set, set};
 use crate::words::word_keys;
 
 /// Words that stand for a noun and point at one of those that were spoken of.
-const POINTING: [&str; 16] = [
-    "тот", "та", "то", "те", "ту", "того", "той", "тех", "тем", "теми", "тому", "том", "тою",
-    "one", "ones", "those",
-];
+static POINTING: Set = Set::named("PointingToNoun");
 
 /// Whether a description is of what a pointing word means: "the one on the left", «те, что на комоде».
 pub(in super::super) fn points(noun: &Noun) -> bool {
@@ -41,7 +39,7 @@ pub(in super::super) fn are_shown(noun: &Noun) -> bool {
 
 /// "Other", a form of «другой»: «ещё» is other, and stands for no noun.
 pub(super) fn stands_for_one(word: &str) -> bool {
-    let russian = ["друг", "втор"].iter().any(|stem| word.starts_with(stem)) && word != "друг";
+    let russian = set!("OtherStem").iter().any(|stem| word.starts_with(stem)) && word != "друг";
     russian || word == "other"
 }
 
@@ -91,7 +89,7 @@ impl Sentence<'_> {
 
     /// Whether a "this" or "those" stands without a noun: it points at what was spoken of.
     pub(in super::super) fn points(&self) -> bool {
-        const THESE: [&str; 6] = ["this", "that", "these", "those", "это", "эти"];
+        static THESE: Set = Set::named("These");
         self.tokens.iter().enumerate().any(|(at, token)| {
             let said = &self.keys[token.from as usize..token.to as usize];
             let pointed = matches!(said, [word] if THESE.contains(&word.as_str()));
@@ -193,25 +191,7 @@ impl Sentence<'_> {
     }
 
     fn is_both(&self, word: u32) -> bool {
-        const EACH: [&str; 17] = [
-            "оба",
-            "обе",
-            "обоих",
-            "обеих",
-            "обоим",
-            "обеим",
-            "обоими",
-            "обеими",
-            "both",
-            "each",
-            "каждый",
-            "каждая",
-            "каждое",
-            "каждого",
-            "каждой",
-            "каждом",
-            "каждую",
-        ];
+        static EACH: Set = Set::named("EachOrBoth");
         EACH.contains(&self.keys[word as usize].as_str())
     }
 

@@ -14,6 +14,7 @@ use crate::question::small_words;
 use crate::question::uses;
 use crate::question::values::{Property, ValueId};
 use crate::question::vocabulary;
+use crate::sets::{Set, set};
 use crate::units::name_key;
 use crate::words::{Language, word_ranges};
 
@@ -219,15 +220,16 @@ impl<'t> Sentence<'t> {
 
     /// «Что висит выше всех?» asks for a place, «Какой шкаф выше всех?» for a size.
     fn tell_heights(&mut self) {
-        const PLACED: [&str; 5] = ["вис", "лежит", "лежат", "стоит", "стоят"];
-        const FOUND: [&str; 2] = ["находит", "находят"];
-        let placed = |key: &String| PLACED.iter().chain(&FOUND).any(|stem| key.starts_with(stem));
+        static PLACED: Set = Set::named("PlacedStem");
+        static FOUND: Set = Set::named("FoundStem");
+        let placed =
+            |key: &String| PLACED.iter().chain(FOUND.iter()).any(|stem| key.starts_with(stem));
         if !self.keys.iter().any(placed) {
             return;
         }
         let keys = &self.keys;
         for token in &mut self.tokens {
-            if !["выше", "ниже"].contains(&keys[token.from as usize].as_str()) {
+            if !set!("HigherOrLower").contains(&keys[token.from as usize].as_str()) {
                 continue;
             }
             let raised = |extreme: Extreme| match extreme {
@@ -387,14 +389,14 @@ impl<'t> Sentence<'t> {
         let nouns = self.tokens.iter().filter(is_noun).count();
         // "Which lamps are on?", but "What is the lamp on?" and "Which table is the lamp on?"
         // "Which floor am I on?"
-        let person = ["i", "you", "we"].iter().any(|word| said(word));
+        let person = set!("PersonWord").iter().any(|word| said(word));
         let link =
             self.keys[at] == "on" && (said("what") || (said("which") && (nouns != 1 || person)));
         // "Is the light on in the kitchen?": a second preposition after it.
         let placed = matches!(next, Some("in" | "at" | "inside"))
             && nouns == 1
             && !said("what")
-            && self.keys[..at].iter().any(|k| ["is", "are", "was", "were"].contains(&k.as_str()));
+            && self.keys[..at].iter().any(|k| set!("IsOrWas").contains(&k.as_str()));
         ((ends && !link) || placed).then(|| lexicon.values.meaning(word)).flatten()
     }
 
@@ -425,12 +427,11 @@ impl<'t> Sentence<'t> {
                 && gap(last) == " "
                 && last + 1 < self.words.len();
             // "Where does the TV stand?" asks with a verb that names take too.
-            let after =
-                |n: usize| at >= n && ["do", "does", "did"].contains(&self.keys[at - n].as_str());
-            let asks = |key: &String| ["where", "what", "which"].contains(&key.as_str());
+            let after = |n: usize| at >= n && set!("Do").contains(&self.keys[at - n].as_str());
+            let asks = |key: &String| set!("AskingWord").contains(&key.as_str());
             let verb = taken > 1
                 && at + taken == self.words.len()
-                && ["stand", "lie"].contains(&self.keys[last].as_str())
+                && set!("LieOrStand").contains(&self.keys[last].as_str())
                 && (after(1) || after(2))
                 && self.keys[..at].iter().any(asks);
             // «На каком ковре 2 скамьи?»: the number counts what follows it, and of Rug 2 nobody asks which it is.
@@ -579,29 +580,7 @@ impl<'t> Sentence<'t> {
 
 /// Digits and the small number words of both languages.
 pub(in super::super) fn number_of(key: &str) -> Option<u64> {
-    const WORDS: [(&str, u64); 22] = [
-        ("два", 2),
-        ("две", 2),
-        ("двух", 2),
-        ("двумя", 2),
-        ("три", 3),
-        ("трех", 3),
-        ("тремя", 3),
-        ("четыре", 4),
-        ("четырех", 4),
-        ("пять", 5),
-        ("пяти", 5),
-        ("шесть", 6),
-        ("семь", 7),
-        ("восемь", 8),
-        ("девять", 9),
-        ("десять", 10),
-        ("two", 2),
-        ("three", 3),
-        ("four", 4),
-        ("five", 5),
-        ("six", 6),
-        ("ten", 10),
-    ];
-    WORDS.iter().find(|(word, _)| *word == key).map(|(_, n)| *n).or_else(|| key.parse().ok())
+    static WORDS: Set = Set::named("NumberWord");
+    let number = WORDS.meant().iter().find(|(word, _)| *word == key);
+    number.map_or(key, |(_, digits)| digits).parse().ok()
 }

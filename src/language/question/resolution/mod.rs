@@ -35,6 +35,7 @@ use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::paraphrase::lost;
+use crate::sets::set;
 use crate::units::{AreaId, InOrder as _};
 use crate::words::{Case, NounPhrase, enumerate, word_keys, word_ranges};
 
@@ -117,7 +118,7 @@ impl Asker<'_> {
         }
         // «Унеси те, что на комоде»: several of those that were spoken of, never the last one alone.
         let several = |pair: &[String]| {
-            ["те", "тех"].contains(&pair[0].as_str())
+            set!("Those").contains(&pair[0].as_str())
                 && (pair[1] == "что" || pair[1].starts_with("котор"))
         };
         if let Some(pair) = word_keys(&gathered).windows(2).find(|pair| several(pair)) {
@@ -248,11 +249,10 @@ impl Asker<'_> {
     fn with_kind(&self, mut text: String, memory: &Memory) -> String {
         let (words, keys) = (word_ranges(&text), word_keys(&text));
         let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&&**key));
-        let said = (0..words.len())
-            .find(|&n| is(n, &["еще"]) && is(n + 1, &["одну", "один", "одно", "одного"]));
+        let said = (0..words.len()).find(|&n| is(n, &["еще"]) && is(n + 1, set!("OneMore")));
         let ends = |n: usize| {
             let rest = words.get(n).map_or("", |next| &text[words[n - 1].end..next.start]);
-            n == words.len() || !rest.trim().is_empty() || is(n, &["и", "пожалуйста", "мне"])
+            n == words.len() || !rest.trim().is_empty() || is(n, set!("AroundMine"))
         };
         let spoken = memory.last_things().into_iter().rev().find_map(|t| t.replica());
         let object = spoken.and_then(|id| self.world.replicas.get(&id)).map(|r| r.object);

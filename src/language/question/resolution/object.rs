@@ -15,6 +15,7 @@ use crate::question::mark::Mark;
 use crate::question::query::{Filter, Head, Noun, Quantity, Rel, Restriction, Thing};
 use crate::question::values::ValueId;
 use crate::semantics::lifts;
+use crate::sets::{Set, set};
 use crate::units::{AreaId, DoorId};
 use crate::words::{Case, Language, Number, Readings};
 
@@ -345,8 +346,7 @@ impl Resolver<'_, '_> {
 
     /// «обе чашки», "both cups"
     fn is_both(&self, words: &Range<usize>) -> bool {
-        const BOTH: [&str; 9] =
-            ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"];
+        static BOTH: Set = Set::named("Both");
         let keys = self.sentence.keys.get(words.start.saturating_sub(1)..words.end);
         keys.unwrap_or_default().iter().any(|key| BOTH.contains(&key.as_str()))
     }
@@ -425,12 +425,12 @@ impl Resolver<'_, '_> {
     /// «ещё одну книгу», "another book": any that was not spoken of, where «другую» is the one that is left.
     fn is_one_more(&self, words: &Range<usize>) -> bool {
         let keys = &self.sentence.keys[words.start.saturating_sub(2)..words.end];
-        keys.iter().any(|key| matches!(key.as_str(), "еще" | "another"))
+        keys.iter().any(|key| set!("AnotherWord").contains(&key.as_str()))
     }
 
     /// «одну из тарелок», "one of the plates": any of them.
     fn is_one_of(&self, words: &Range<usize>) -> bool {
-        const ONE: [&str; 7] = ["одну", "один", "одно", "одного", "любую", "любой", "one"];
+        static ONE: Set = Set::named("OneOrAny");
         self.sentence.keys[words.start.saturating_sub(3)..words.end]
             .iter()
             .any(|key| ONE.contains(&key.as_str()))
@@ -446,21 +446,12 @@ impl Resolver<'_, '_> {
     /// «с письменного стола», "from the bedroom": where something is taken, where «от» would tell whose it is.
     fn is_out_of(&self, spot: &Spot<'_>) -> bool {
         let at = self.sentence.words.iter().position(|word| word.start == spot.at.start);
-        at.is_some_and(|n| ["из", "с", "со", "from"].contains(&&*self.sentence.keys[n]))
+        at.is_some_and(|n| set!("FromWord").contains(&&*self.sentence.keys[n]))
     }
 
     /// «любую книгу»: a question would ask about all of them.
     pub(super) fn is_any(&self, words: &Range<usize>) -> bool {
-        const ANY: [&str; 8] = [
-            "любую",
-            "любой",
-            "любое",
-            "any",
-            "какую нибудь",
-            "some",
-            "какой нибудь",
-            "какое нибудь",
-        ];
+        static ANY: Set = Set::named("AnyOfThem");
         let said =
             |n: usize| self.sentence.keys.get(n).is_some_and(|key| ANY.contains(&key.as_str()));
         // «одну чашку», "one cup": whichever; "the one by the door" is not.

@@ -14,6 +14,7 @@ use crate::question::mark::Mark;
 use crate::question::memory::{Ordered, Waiting};
 use crate::question::query::{Best, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Aside, Asker, Memory, aside, vocabulary};
+use crate::sets::Set;
 use crate::units::{InOrder as _, name_key};
 use crate::words::{Case, word_keys, word_ranges};
 
@@ -48,7 +49,7 @@ impl Ordered {
 
     /// The command without "from there", which meant something where that was said.
     pub(super) fn without_there(&self, from: usize) -> String {
-        const THERE: [&str; 3] = ["there", "оттуда", "там"];
+        static THERE: Set = Set::named("There");
         let points = |told: &&Range<usize>| {
             word_keys(&self.text[(*told).clone()]).iter().any(|key| THERE.contains(&key.as_str()))
         };
@@ -190,47 +191,8 @@ impl Asker<'_> {
 
     /// «А теперь другую», "now the other one": the last command, done to the nearest other thing of that kind.
     fn another(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
-        const SMALL: [&str; 15] = [
-            "нет",
-            "no",
-            "не ту",
-            "too",
-            "also",
-            "а",
-            "и",
-            "теперь",
-            "потом",
-            "пожалуйста",
-            "now",
-            "and",
-            "then",
-            "please",
-            "тоже",
-        ];
-        const OTHER: [&str; 22] = [
-            "другую",
-            "другой",
-            "другое",
-            "вторую",
-            "второй",
-            "второе",
-            "следующую",
-            "следующий",
-            "еще одну",
-            "еще один",
-            "еще одно",
-            "еще",
-            "the other one",
-            "the other",
-            "another one",
-            "another",
-            "the second one",
-            "the next one",
-            "one more",
-            "the next",
-            "также другую",
-            "остальную",
-        ];
+        static SMALL: Set = Set::named("AroundReply");
+        static OTHER: Set = Set::named("TheOther");
         if text.trim_end().ends_with('?') {
             return None;
         }
@@ -273,7 +235,7 @@ impl Asker<'_> {
 
     /// «И на кухне тоже», "and in the kitchen too": the last command, done to what is there.
     fn there_too(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
-        const TOO: [&str; 5] = ["тоже", "также", "too", "also", "as well"];
+        static TOO: Set = Set::named("Too");
         let keys = word_keys(text);
         let too = (0..keys.len())
             .find_map(|n| TOO.iter().find_map(|too| crate::words::phrase_at(&keys, n, too)));
@@ -351,18 +313,8 @@ impl Asker<'_> {
         waiting: &Waiting,
         knowledge: &Knowledge<'_>,
     ) -> Option<Vec<Thing>> {
-        const ANY: [&str; 9] = [
-            "любую",
-            "любой",
-            "любое",
-            "все равно",
-            "any",
-            "any one",
-            "whichever",
-            "either",
-            "ближайшую",
-        ];
-        const ALL: [&str; 6] = ["все", "обе", "оба", "all", "both", "all of them"];
+        static ANY: Set = Set::named("AnyOfChoice");
+        static ALL: Set = Set::named("AllOfChoice");
         let candidates = &waiting.candidates;
         let key = name_key(text.trim_matches(|c: char| !c.is_alphanumeric()));
         let nearest = Best { extreme: Extreme::Nearest, anchor: None };
@@ -413,34 +365,7 @@ fn lone_rank(keys: &[String]) -> Option<u64> {
 
 /// «ту, что на комоде», "the one that is on the dresser": what follows the pointing words tells which.
 fn without_pointing(text: &str) -> &str {
-    const POINTING: [&str; 26] = [
-        "к",
-        "ко",
-        "тому",
-        "том",
-        "тот",
-        "та",
-        "то",
-        "те",
-        "ту",
-        "той",
-        "что",
-        "который",
-        "которая",
-        "которое",
-        "которую",
-        "стоит",
-        "лежит",
-        "находится",
-        "это",
-        "я",
-        "имел",
-        "имела",
-        "виду",
-        "that",
-        "which",
-        "is",
-    ];
+    static POINTING: Set = Set::named("AroundChoice");
     let words = word_ranges(text);
     let points =
         |range: &&Range<usize>| POINTING.contains(&name_key(&text[(*range).clone()]).as_str());

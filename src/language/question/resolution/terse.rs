@@ -10,66 +10,22 @@ use crate::question::mark::{Mark, Pronoun};
 use crate::question::memory::{Exchange, Ordered};
 use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
+use crate::sets::{Set, set};
 use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
 
 /// What is said before an amendment.
-const BEFORE: [&str; 41] = [
-    "нет",
-    "не",
-    "ой",
-    "стоп",
-    "постой",
-    "погоди",
-    "лучше",
-    "вернее",
-    "точнее",
-    "а",
-    "и",
-    "теперь",
-    "потом",
-    "затем",
-    "тогда",
-    "ладно",
-    "хорошо",
-    "тоже",
-    "ну",
-    "давай",
-    "пожалуйста",
-    "no",
-    "not",
-    "wait",
-    "sorry",
-    "rather",
-    "actually",
-    "i",
-    "mean",
-    "meant",
-    "and",
-    "now",
-    "then",
-    "oh",
-    "well",
-    "ok",
-    "okay",
-    "please",
-    "or",
-    "also",
-    "instead",
-];
+static BEFORE: Set = Set::named("BeforeTerse");
 
 /// What was done wrong: "not that one", «не эту».
-const WRONG: [&str; 16] = [
-    "ту", "эту", "тот", "этот", "то", "это", "те", "эти", "её", "его", "that", "this", "one", "it",
-    "those", "there",
-];
+static WRONG: Set = Set::named("WrongOne");
 
 /// Whither the last order went, once more.
-const THERE: [&str; 7] = ["туда", "же", "тоже", "there", "too", "as", "well"];
+static THERE: Set = Set::named("ThereToo");
 
 /// «И обратно», "and back again": to where the robot was.
 fn is_back(text: &str) -> bool {
-    const BACK: [&str; 4] = ["back", "обратно", "назад", "взад"];
-    const SMALL: [&str; 9] = ["and", "then", "now", "again", "и", "а", "теперь", "потом", "please"];
+    static BACK: Set = Set::named("Back");
+    static SMALL: Set = Set::named("AroundBack");
     let keys = word_keys(text);
     let back = |key: &String| BACK.contains(&key.as_str());
     keys.iter().any(back) && keys.iter().all(|key| back(key) || SMALL.contains(&key.as_str()))
@@ -93,7 +49,7 @@ impl<'t> Anew<'t> {
         let (mut amends, mut denies, mut is_only_wrong) = (false, false, false);
         while let Some(key) = keys.get(at) {
             let small = BEFORE.contains(&key.as_str());
-            let wrong = amends && at > 0 && (WRONG.contains(&key.as_str()) || key == "ее");
+            let wrong = amends && at > 0 && WRONG.contains(&key.as_str());
             // «тот, что на столе» is what is meant instead.
             let points = keys.get(at + 1).is_some_and(|k| k == "что" || k.starts_with("котор"));
             if !small && (!wrong || points) {
@@ -101,9 +57,9 @@ impl<'t> Anew<'t> {
             }
             // "not the red one, the white one": up to the mark all is what was wrong.
             amends |= small;
-            denies |= matches!(key.as_str(), "нет" | "no");
+            denies |= set!("No").contains(&key.as_str());
             at += 1;
-            if matches!(key.as_str(), "not" | "не") {
+            if set!("Not").contains(&key.as_str()) {
                 let mark = (at + 1..words.len()).find(|&n| {
                     text[words[n - 1].end..words[n].start].contains([',', ';', '.', '–', '—'])
                 });
@@ -184,24 +140,7 @@ impl Asker<'_> {
     /// Whether a text without a verb orders: it says whither, or asks kindly or shortly for what it names.
     #[must_use]
     pub fn orders_tersely(&self, text: &str) -> bool {
-        const URGES: [&str; 16] = [
-            "please",
-            "пожалуйста",
-            "мне",
-            "сюда",
-            "me",
-            "quick",
-            "quickly",
-            "быстро",
-            "срочно",
-            "here",
-            "now",
-            "скорее",
-            "живо",
-            "бы",
-            "плиз",
-            "fast",
-        ];
+        static URGES: Set = Set::named("Urges");
         let keys = word_keys(text);
         // «Да где же эти ключи!» asks, however loud.
         let asks = |n: usize| {
@@ -395,9 +334,9 @@ impl Asker<'_> {
         mut text: String,
         memory: &Memory,
     ) -> Result<String, (Doubt, Range<usize>)> {
-        const ONE: [&str; 7] = ["один", "одну", "одно", "одного", "одной", "one", "any"];
-        const THEM: [&str; 6] = ["them", "those", "these", "них", "этих", "тех"];
-        const SMALL: [&str; 5] = ["me", "мне", "please", "пожалуйста", "тогда"];
+        static ONE: Set = Set::named("OneOfThem");
+        static THEM: Set = Set::named("OfThem");
+        static SMALL: Set = Set::named("AroundOne");
         let (words, keys) = (word_ranges(&text), word_keys(&text));
         let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&&**key));
         let of_them = |n: &usize| {
@@ -405,7 +344,7 @@ impl Asker<'_> {
             let ends = is(n + 2, &["them", "них"])
                 || keys.len() == n + 3
                 || text[words[n + 2].end..words[n + 3].start].contains([',', '.', '!']);
-            is(*n, &ONE) && is(n + 1, &["of", "из"]) && is(n + 2, &THEM) && ends
+            is(*n, &ONE) && is(n + 1, set!("Of")) && is(n + 2, &THEM) && ends
         };
         let said = (0..keys.len().saturating_sub(2)).find(of_them).map(|n| (n, n + 2));
         let bare = || {
@@ -449,7 +388,7 @@ impl Asker<'_> {
         let ends = |n: usize| match words.get(n) {
             Some(next) => {
                 let gap = !text[words[n - 1].end..next.start].trim().is_empty();
-                gap || matches!(keys[n].as_str(), "и" | "пожалуйста" | "мне")
+                gap || set!("AroundMine").contains(&keys[n].as_str())
             }
             None => true,
         };
@@ -470,7 +409,7 @@ impl Asker<'_> {
             }
             _ => {
                 let value = self.mind.lexicon.values.longest(&keys[n..]);
-                let other = matches!(keys[n].as_str(), "другую" | "другой" | "другое");
+                let other = set!("OtherOne").contains(&keys[n].as_str());
                 let told = other || value.is_some_and(|(taken, _)| taken == 1);
                 let last = memory.last_things().into_iter().rev().find(|t| t.replica().is_some());
                 last.filter(|_| told).and_then(|t| self.kind_of(t, language))
@@ -484,7 +423,7 @@ impl Asker<'_> {
 
     /// What a pronoun means in a command: what was spoken of last, and of that only what its verb can be done to.
     pub(super) fn spoken_of(&self, text: &str, memory: &Memory) -> Vec<Thing> {
-        const BOTH: [&str; 5] = ["обе", "оба", "обоих", "обеих", "both"];
+        static BOTH: Set = Set::named("BothWord");
         let mut last = memory.last_things();
         // «Верни обе на место»: the one before too, of the same kind.
         if let [only] = last[..]

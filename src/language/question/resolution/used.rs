@@ -8,6 +8,7 @@ use super::Resolver;
 use crate::question::grammar::Item;
 use crate::question::query::{Head, Noun, Thing};
 use crate::question::{Asker, Doubt, Memory, uses};
+use crate::sets::set;
 use crate::words::{Case, Language, word_keys, word_ranges};
 
 /// An order with the name of a thing of the wanted use in the place of the words for that.
@@ -30,7 +31,7 @@ impl Asker<'_> {
         let memory = Memory::default();
         let knowledge = self.knowledge(language, &memory);
         // What is only looked for need not be carried.
-        let found = keys.iter().any(|key| ["find", "найди", "найти", "поищи"].contains(&&**key));
+        let found = keys.iter().any(|key| set!("FindWord").contains(&&**key));
         let serves =
             |t: &Thing| found || t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
         let of_sort = |sort: &u16| {

@@ -10,6 +10,7 @@ use crate::question::grammar::{Item, Phrase};
 use crate::question::mark::Mark;
 use crate::question::query::{Noun, Rel, Restriction};
 use crate::question::values::ValueId;
+use crate::sets::Set;
 
 impl Resolver<'_, '_> {
     /// «чашку белую»: the value behind its noun.
@@ -126,7 +127,7 @@ impl Resolver<'_, '_> {
 
     /// «лицом к столу», "facing the table": what the robot is to look at.
     pub(super) fn is_faced(&self, phrase: &Phrase) -> bool {
-        const FACE: [&str; 5] = ["лицом", "передом", "носом", "повернувшись", "facing"];
+        static FACE: Set = Set::named("FacingWord");
         let before = phrase.words.start.saturating_sub(2)..phrase.words.start;
         let keys = self.sentence.keys.get(before).unwrap_or_default();
         keys.iter().any(|key| FACE.contains(&key.as_str()))

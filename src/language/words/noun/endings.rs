@@ -3,6 +3,7 @@
 //! Invariant: they see the letters alone; what letters cannot tell stands in the word list.
 
 use super::Noun;
+use crate::sets::Set;
 use crate::words::adjective::{Adjective, drop_last, is_vowel};
 use crate::words::grammar::{Case, Evidence, Number};
 
@@ -73,24 +74,7 @@ pub(super) fn masculine_stem(word: &str) -> (String, bool, bool) {
         return (word.into(), false, false);
     }
     let before = word.chars().rev().nth(2);
-    const KEEP_OK: [&str; 16] = [
-        "урок",
-        "срок",
-        "поток",
-        "приток",
-        "исток",
-        "восток",
-        "сток",
-        "водосток",
-        "пророк",
-        "игрок",
-        "порок",
-        "зарок",
-        "электрошок",
-        "волок",
-        "подток",
-        "водоток",
-    ];
+    static KEEP_OK: Set = Set::named("KeepsVowel");
     match () {
         () if word.ends_with("ок") && !KEEP_OK.contains(&word) && !word.ends_with("блок") => {
             cut(2, "к")
