@@ -2,8 +2,6 @@
 //!
 //! Invariant: whatever is compared, more of the measure wins, unless [`Extreme::is_less`] says otherwise.
 
-use crate::units::name_key;
-
 /// What a superlative compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Extreme {
@@ -136,7 +134,7 @@ const QUANTITIES: &[(Quantity, &str)] = &[
 pub(super) fn quantity(words: &[String]) -> Option<(usize, Quantity)> {
     (1..=words.len().min(3)).rev().find_map(|n| {
         let said = words[..n].join(" ");
-        let listed = |list: &str| list.split('|').any(|phrase| name_key(phrase) == said);
+        let listed = |list: &str| list.split('|').any(|phrase| phrase == said);
         QUANTITIES.iter().find(|(_, list)| listed(list)).map(|(quantity, _)| (n, *quantity))
     })
 }
