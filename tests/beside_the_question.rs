@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use orthoframe::Engine;
-use orthoframe::engine::{After, Memory, change_now};
+use orthoframe::engine::{After, Dialogue, Memory, change_now};
 use orthoframe_language::{Case, NounPhrase, names};
 use orthoframe_map::{Entity, Replica, World};
 use orthoframe_store::Seen;
@@ -267,4 +267,46 @@ fn what_is_left_unsaid_makes_no_other_question() {
     assert!(none.starts_with("No"), "{none}");
     let place = answer(&engine, "Where is it?", &mut memory).expect("they have a place");
     assert!(place.contains("Phone") && !place.contains("one gets to"), "{place}");
+}
+
+/// What is told before or behind a question neither joins what is asked for nor takes its place, and a greeting before a wish
+/// makes no order of what is asked behind it.
+#[test]
+fn what_is_told_beside_a_question_is_not_asked_for() {
+    let Some(mut engine) = house() else { return };
+    let pairs = [
+        (
+            "I need a spoon, are there any eggs in the kitchen?",
+            "Are there any eggs in the kitchen?",
+        ),
+        ("Ложка нужна, на кухне есть яйца?", "На кухне есть яйца?"),
+        ("They ate it all, I guess, but how many eggs are there?", "How many eggs are there?"),
+        ("Where's the spoon? Not the fork, the spoon.", "Where's the spoon?"),
+        ("Where did we put the pencil?", "Where is the pencil?"),
+        ("Where have they put the pencil?", "Where is the pencil?"),
+        ("Доброе утро! Хочу омлет, в какой комнате холодильник?", "В какой комнате холодильник?"),
+    ];
+    for (line, whole) in pairs {
+        let mut hear = |line: &str| {
+            let mut dialogue = Dialogue::default().keeping_nothing();
+            let heard = dialogue.hear(&mut engine, line, &mut |_, _| {}).expect("there is a map");
+            heard.replies.iter().map(|r| r.text.clone()).collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(plainly(&hear(line)), plainly(&hear(whole)), "{line}");
+    }
+    // Which table is meant is asked back; what is asked behind it does not stand in its noun's place.
+    let asked = "How many eggs are on the dining table, no wait, how many cups?";
+    assert_eq!(answer(&engine, asked, &mut Memory::default()), None);
+}
+
+/// "Which nurse desk is closest to you?": what kind of thing it is does not say from where.
+#[test]
+fn the_nearest_is_nearest_to_what_is_said() {
+    let Some(engine) = engine("../shared/data/rmf/clinic.building.yaml") else { return };
+    let nearest = |line: &str| {
+        let answer = engine.ask(line, &mut Memory::default()).expect("there is a map");
+        answer.expect("it is understood").symbols
+    };
+    let told = nearest("Which nurse desk is closest to you?");
+    assert!(told.len() == 1 && told == nearest("Which nurse desk is the closest?"), "{told:?}");
 }

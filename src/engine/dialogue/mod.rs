@@ -335,8 +335,10 @@ impl Hearing<'_, '_> {
         }
         // «Где пульт? Принеси его.»: a question and a command.
         let parts = sentences(line);
-        if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
-            let (order, before) = parts.split_last().expect("there are several");
+        if let Some((order, before)) = parts.split_last().filter(|(_, before)| !before.is_empty())
+            && self.engine.is_command(order)?
+            && !self.engine.asks_by_a_word(order)?
+        {
             let mut heard = Vec::new();
             for part in before {
                 // "I am thirsty. Bring me a cup.": what asks nothing and commands nothing is let pass.
@@ -417,7 +419,10 @@ impl Hearing<'_, '_> {
         }
         // "I need to read something. Where are the books?" asks, whatever is said before.
         let asks = match &sentences(line)[..] {
-            [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
+            [_, .., last] => {
+                last.ends_with('?')
+                    && (!self.engine.is_command(last)? || self.engine.asks_by_a_word(last)?)
+            }
             _ => {
                 self.engine.asks_behind_what_is_told(line, &self.dialogue.memory)?
                     || self.engine.asks_by_a_word(line)?

@@ -101,10 +101,12 @@ fn suiting(part: &str, keys: &[String]) -> Option<Range<usize>> {
 /// Whether what stands behind words that say nothing is a clause of its own, and not the rest of the one before them.
 fn begins_clause(before: &str, behind: &str) -> bool {
     let keys = word_keys(behind);
+    let joint = matches!(vocabulary::longest(&keys), Some((1, Mark::But)));
+    let keys = &keys[usize::from(joint)..];
     let of_me = |key: &String| set!("FirstPerson").contains(&key.as_str());
     let tells = word_keys(before).iter().any(|key| of_me(key) || is_first_person(key));
     let whether = keys.get(1).is_some_and(|key| key == "ли");
-    let asks = vocabulary::longest(&keys).is_some_and(|(_, mark)| mark.asks() && keys[0] != "есть");
+    let asks = vocabulary::longest(keys).is_some_and(|(_, mark)| mark.asks() && keys[0] != "есть");
     !several::asks_in(before) && (tells || asks || whether)
 }
 
@@ -177,6 +179,8 @@ mod tests {
                 "I'm in the kitchen, where is the bin?",
             ),
             ("Скажи, ну, где чашка?", "Скажи, где чашка?"),
+            ("They ate it, I guess, but how many are left?", "They ate it, but how many are left?"),
+            ("Всё съели, похоже, а где, ну, ложки?", "Всё съели, похоже, а где ложки?"),
             ("What is above the kitchen, like, counter?", "What is above the kitchen counter?"),
             ("Where is the cup, I mean, the mug?", "Where is the cup, I mean, the mug?"),
             ("I mean, where is the cup?", "where is the cup?"),

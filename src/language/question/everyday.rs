@@ -121,7 +121,10 @@ fn with_head(
     lexicon: &Lexicon,
 ) -> Option<(Range<usize>, String)> {
     let said = &text[words[at].clone()];
-    if Language::of(said) != Language::Russian || said.chars().count() < 4 {
+    if Language::of(said) != Language::Russian
+        || said.chars().count() < 4
+        || !lexicon.nouns.begins_longer(said)
+    {
         return None;
     }
     let others = words.iter().enumerate().filter(|(n, _)| *n != at);
@@ -207,9 +210,7 @@ fn other_words(
     if let Some(word) = ASKING.iter().find(swapped) {
         return Some((1, (*word).to_owned()));
     }
-    let like_a_name = !lexicon.nouns.near(&key, 1).is_empty();
-    if like_a_name {
-        return None;
-    }
-    ASKING.iter().find(mistyped).map(|word| (1, (*word).to_owned()))
+    // Likeness to a name takes as long as the map has names: it is asked only of what may be a slip.
+    let word = ASKING.iter().find(mistyped)?;
+    lexicon.nouns.near(&key, 1).is_empty().then(|| (1, (*word).to_owned()))
 }

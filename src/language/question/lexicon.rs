@@ -12,6 +12,7 @@ use crate::units::{AreaId, Gather as _, InOrder as _, ObjectId, Point, TypeId, n
 use crate::words::things::things;
 use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
 
+use super::memo::Memo;
 use super::purposes;
 use super::values::Values;
 
@@ -101,7 +102,7 @@ fn concepts() -> Vec<(Extension, Vec<&'static str>)> {
 static MASS: Set = Set::named("MassKind");
 
 /// All nouns of a map.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Lexicon {
     pub(super) nouns: FormIndex<Meaning>,
     kinds: Vec<Kind>,
@@ -113,9 +114,38 @@ pub struct Lexicon {
     sorts: Vec<Vec<KindId>>,
     pub values: Values,
     pub windows: Vec<Window>,
+    /// What is like a word that nothing knows, by the word.
+    alike: Memo<Vec<String>>,
 }
 
 impl Lexicon {
+    /// Names and values that a word is like which nothing knows, the likest first.
+    pub(super) fn alike(&self, said: &str) -> Vec<String> {
+        self.alike.of(said, || {
+            // A word within a word is not like it: "table" in "comfortable".
+            let key = name_key(said);
+            let like = |name: &&str| {
+                let name = name_key(name);
+                name.split([' ', '-', '_'])
+                    .chain([name.as_str()])
+                    .any(|word| strsim::normalized_damerau_levenshtein(word, &key) >= 0.65)
+            };
+            // Letters that look alike make «тен» of "teh": a word is like those of its own alphabet.
+            let latin = |text: &str| text.starts_with(|c: char| c.is_ascii());
+            let mut near: Vec<String> = Vec::new();
+            let alike = self.nouns.near(said, 3).into_iter().filter(like);
+            for name in alike.filter(|name| latin(name) == latin(said)) {
+                if !near.iter().any(|n| n == name) {
+                    near.push(name.to_owned());
+                }
+            }
+            if near.is_empty() {
+                near.extend(self.values.near(said));
+            }
+            near
+        })
+    }
+
     /// The nouns of a world.
     #[must_use]
     pub fn of(world: &World) -> Self {
@@ -127,6 +157,7 @@ impl Lexicon {
             sorts: Vec::new(),
             values: Values::of(world),
             windows: windows(world),
+            alike: Memo::default(),
         };
         for entity in world.names().map(|(entity, _)| entity).gather::<BTreeSet<_>>() {
             let name = world.name(entity);

@@ -38,6 +38,7 @@ mod knowledge;
 mod level_words;
 mod lexicon;
 mod mark;
+mod memo;
 mod memory;
 mod nearest;
 mod notation;
@@ -377,7 +378,7 @@ impl Asker<'_> {
                 if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {
                     self.hear_of(text, memory);
                 }
-                let is_deaf = memory.exchanges == before && !self.has_pronoun(text);
+                let is_deaf = memory.exchanges == before && self.pronouns(text).is_empty();
                 let names_nothing = is_deaf && self.introduces(text);
                 let asked = memory.query.take_if(|_| is_only_named(text, &doubt));
                 let place = memory.told_place.filter(|_| matches!(doubt, Doubt::Unknown { .. }));
@@ -453,10 +454,6 @@ impl Asker<'_> {
         };
         let items = Sentence::new(&text, &self.mind.lexicon).items();
         items.is_empty() || !items.iter().all(idle)
-    }
-
-    fn has_pronoun(&self, text: &str) -> bool {
-        !self.pronouns(text).is_empty()
     }
 
     fn pronouns(&self, text: &str) -> Vec<Pronoun> {
@@ -554,7 +551,7 @@ impl Asker<'_> {
         let text = self.mind.paraphrases.plain(&text);
         let named = storeys::named(&text, self.world, self.relations, here);
         let named = here::named(&named, || self.own_room(&named));
-        everyday::plain(&named, &self.mind.lexicon).into_owned()
+        self.mind.plain.of(&named, || everyday::plain(&named, &self.mind.lexicon).into_owned())
     }
 
     /// «в Гостиной», in the language of a text: the room where the robot is.

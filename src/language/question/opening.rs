@@ -56,6 +56,11 @@ pub(super) fn asks_by_a_word(words: &[String]) -> bool {
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
             Mark::Filler | Mark::But | Mark::The | Mark::And => at += taken,
+            // «в какой комнате»
+            Mark::Link(_) => {
+                let next = longest(&words[at + taken..]);
+                return matches!(next, Some((_, Mark::Which | Mark::What)));
+            }
             // What there is may be told as well: «есть кофе, принеси».
             mark => return mark.asks() && mark != Mark::Exists,
         }

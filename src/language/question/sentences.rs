@@ -59,7 +59,10 @@ impl Asker<'_> {
                     Ok(answer) => answer,
                     // «Сколько чёрных и сколько белых стульев?»: the noun stands once, at the end.
                     Err(unanswered) => {
-                        let whole = self.last_head(last).map(|head| format!("{part} {head}"));
+                        // Where it is only asked back which one is meant, the part lacks no noun.
+                        let lacks = !matches!(unanswered.0, Doubt::Ambiguous { .. });
+                        let head = lacks.then(|| self.last_head(last)).flatten();
+                        let whole = head.map(|head| format!("{part} {head}"));
                         let whole =
                             whole.and_then(|whole| self.answer(&whole, language, &after).ok());
                         match whole {

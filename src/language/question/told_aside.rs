@@ -184,8 +184,14 @@ fn withdrawn(items: &[Item]) -> Option<&Item> {
         matches!(item, Item::Mark(Mark::Not | Mark::The | Mark::A | Mark::And | Mark::Filler))
     });
     let denies = items.contains(&Item::Mark(Mark::Not));
-    let only = rest.next().filter(|_| denies && rest.next().is_none())?;
-    matches!(only, Item::Noun(_) | Item::Unknown(_)).then_some(only)
+    let first = rest.next().filter(|_| denies)?;
+    let is_all = match (first, rest.next(), rest.next()) {
+        (Item::Noun(_) | Item::Unknown(_), None, _) => true,
+        // "Not the pencil, the pen."
+        (Item::Noun(_), Some(Item::Noun(_)), None) => true,
+        _ => false,
+    };
+    is_all.then_some(first)
 }
 
 /// "If you don't mind", «если не секрет», "while you're at it": who says so is polite, and supposes nothing.

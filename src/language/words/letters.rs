@@ -63,9 +63,9 @@ pub(crate) fn word_keys(text: &str) -> Vec<String> {
 /// How many words a phrase has, where all of them stand one after the other from a place on.
 #[must_use]
 pub(crate) fn phrase_at(keys: &[String], at: usize, phrase: &str) -> Option<usize> {
-    let length = phrase.split(' ').count();
-    let said = keys.get(at..at + length)?;
-    said.iter().map(String::as_str).eq(phrase.split(' ')).then_some(length)
+    phrase
+        .split(' ')
+        .try_fold(0, |taken, word| (keys.get(at + taken)? == word).then_some(taken + 1))
 }
 
 fn is_combining(c: char) -> bool {

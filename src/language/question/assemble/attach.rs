@@ -347,10 +347,16 @@ impl Frame<'_, '_> {
         }
         let Some(best) = &mut noun.best else { return noun };
         if matches!(best.extreme, Extreme::Nearest | Extreme::Farthest) && best.anchor.is_none() {
-            let is_anchor = |r: &Restriction| {
-                matches!(r.rel, Rel::To | Rel::From | Rel::At | Rel::NextTo | Rel::Near)
+            // "Which nurse desk is closest to you?" tells what desk it is, and then from where.
+            let whence = |r: &Restriction| matches!(r.rel, Rel::To | Rel::From);
+            let beside = |r: &Restriction| {
+                matches!(r.rel, Rel::At | Rel::NextTo | Rel::Near)
+                    && !r.anchors.iter().any(|anchor| anchor.modifies)
             };
-            let found = noun.restrictions.iter().position(is_anchor);
+            let place = |is_anchor: &dyn Fn(&Restriction) -> bool| {
+                noun.restrictions.iter().position(is_anchor)
+            };
+            let found = place(&whence).or_else(|| place(&beside));
             if let Some(at) = found {
                 let anchor = noun.restrictions.remove(at).anchors.into_iter().next();
                 // «ближайший ко мне»: to the robot, as when nothing is said.

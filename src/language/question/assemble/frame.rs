@@ -426,31 +426,12 @@ impl<'s, 't> Frame<'s, 't> {
             words.start -= 1;
         }
         let said = self.sentence.said(&words);
-        // Letters that look alike make «тен» of "teh": a word is like those of its own alphabet.
-        let latin = |text: &str| text.starts_with(|c: char| c.is_ascii());
         // "Sofa" is no slip for "soft".
         let thing = self.thing_unknown(&words);
         if let Some(reference) = thing {
             return Doubt::Unknown { reference, near: Vec::new() };
         }
-        let alike = self.lexicon.nouns.near(said, 3).into_iter();
-        let mut near: Vec<String> = Vec::new();
-        // A word within a word is not like it: "table" in "comfortable".
-        let key = crate::units::name_key(said);
-        let like = |name: &str| {
-            let name = crate::units::name_key(name);
-            let words = name.split([' ', '-', '_']).chain([name.as_str()]);
-            words.into_iter().any(|word| strsim::normalized_damerau_levenshtein(word, &key) >= 0.65)
-        };
-        let alike = alike.filter(|name| like(name));
-        for name in alike.filter(|name| latin(name) == latin(said)) {
-            if !near.iter().any(|n| n == name) {
-                near.push(name.to_owned());
-            }
-        }
-        if near.is_empty() {
-            near.extend(self.lexicon.values.near(said));
-        }
+        let near = self.lexicon.alike(said);
         // «туалетная бумага», "toilet paper": the name of one thing, though paper alone is a material.
         let material =
             |value: &ValueId| self.lexicon.values.entry(*value).property == Property::Material;

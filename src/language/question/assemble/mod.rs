@@ -61,11 +61,33 @@ pub(super) fn query(
     match read {
         Some(mut query) => match frame.left_out(&mut query) {
             Some(words) => Err(Doubt::not_understood(&words)),
-            None if frame.asks_more_than(&mut query) => Err(Doubt::not_understood(sentence.text)),
+            None if frame.asks_more_than(&mut query) || tells_before(sentence, &items, &query) => {
+                Err(Doubt::not_understood(sentence.text))
+            }
             None => Ok(query),
         },
         None => Err(Doubt::not_understood(sentence.text)),
     }
+}
+
+/// "I need a plate, is there a cup?": what is told before a comma and what asks whether there is something is not asked for.
+fn tells_before(sentence: &Sentence<'_>, items: &[Item], query: &Query) -> bool {
+    let Query::Exists { what, .. } = query else { return false };
+    let is_noun = |item: &Item| matches!(item, Item::Noun(phrase) if phrase.person.is_none());
+    let Some(asks) = items.iter().position(|item| *item == Item::Mark(Mark::Exists)) else {
+        return false;
+    };
+    let before = items[..asks].iter().rposition(is_noun);
+    let behind = items[asks..].iter().position(is_noun).map(|n| asks + n);
+    let Some((before, behind)) = before.zip(behind).filter(|_| what.len() > 1) else {
+        return false;
+    };
+    let between = &items[before..behind];
+    let joined = between.iter().any(|item| matches!(item, Item::Mark(Mark::And | Mark::Or)));
+    let (Item::Noun(told), Item::Noun(asked)) = (&items[before], &items[behind]) else {
+        return false;
+    };
+    !joined && (told.words.end..=asked.words.start).any(|at| sentence.comma_between(at, at))
 }
 
 /// "What colour are the sofa and the armchair?" asks of each by itself.

@@ -16,6 +16,7 @@ pub(super) use measure::HowFar;
 pub(super) use walls::{Held, Kept};
 
 use super::lexicon::Lexicon;
+use super::memo::Memo;
 use super::query::{Rel, Thing};
 use super::{Memory, Senses};
 use crate::map::{DoorKind, Entity, World};
@@ -163,6 +164,8 @@ impl KnownOpening {
 pub struct Mind {
     pub lexicon: Arc<Lexicon>,
     pub(super) paraphrases: Arc<Paraphrases>,
+    /// Texts in words of the map, by the texts.
+    pub(super) plain: Memo<String>,
     pairs: [OnceLock<Pairs>; RELATIONS.len()],
     openings: OnceLock<Vec<KnownOpening>>,
     by_type: OnceLock<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
@@ -187,6 +190,7 @@ impl Mind {
         Self {
             lexicon,
             paraphrases,
+            plain: Memo::default(),
             pairs: std::array::from_fn(|_| OnceLock::new()),
             openings: OnceLock::new(),
             by_type: OnceLock::new(),

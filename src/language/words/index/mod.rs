@@ -28,7 +28,7 @@ use super::phrase::NounPhrase;
 use crate::units::InOrder as _;
 use spelled::Spelled;
 use spelled::split_tag;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 use std::ops::Range;
 use unicode_normalization::UnicodeNormalization;
@@ -107,6 +107,8 @@ pub struct FormIndex<T> {
     known: HashMap<(bool, Box<str>), u32>,
     /// Forms of stems.
     forms: HashMap<Box<str>, Vec<Posting>>,
+    /// The first words of forms of several.
+    first_words: HashSet<Box<str>>,
     longest_key: usize,
 }
 
@@ -149,6 +151,7 @@ impl<T> Default for FormIndex<T> {
             stems: Vec::new(),
             known: HashMap::new(),
             forms: HashMap::new(),
+            first_words: HashSet::new(),
             longest_key: 0,
         }
     }
@@ -279,6 +282,11 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             return;
         }
         self.longest_key = self.longest_key.max(key.len());
+        if let Some((first, _)) = key.split_once(' ')
+            && !self.first_words.contains(first)
+        {
+            self.first_words.insert(first.into());
+        }
         let postings = self.forms.entry(key.into()).or_default();
         // The forms of one stem come one after the other, so that its postings are the last ones.
         let mut own = postings.iter_mut().rev().take_while(|posting| posting.stem == stem);
@@ -370,6 +378,13 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             }
         }
         hits
+    }
+
+    /// Whether some form of several words begins as a text does.
+    #[must_use]
+    pub(crate) fn begins_longer(&self, text: &str) -> bool {
+        let key = Spelled::of(text).key;
+        self.first_words.contains(key.split(' ').next().unwrap_or_default())
     }
 
     /// How many words from `from` on the longest form of some name takes; 0 when none begins there.
