@@ -93,7 +93,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (
         Extension::Building,
         "дом|здание|квартира|карта|жильё|модель|план|строение|клиника|больница|школа|гостиница|музей",
-        "house|building|flat|apartment|home|map|this place|the whole place|whole place|entire place|premises|clinic|hospital|school|hotel|museum",
+        "house|building|flat|apartment|home|map|this place|the whole place|whole place|entire place|premises|site|this site|clinic|hospital|school|hotel|museum",
     ),
     (Extension::Exits, "выход|вход", "exit|way out|entrance"),
     (
