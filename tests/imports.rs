@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use orthoframe::engine::{Change, Engine, Memory, Timestamp};
 use orthoframe_exchange::{
-    ImportError, Imported, Options, Room, Treatment, What, file_text, read, read_rmf,
+    ImportError, Imported, Options, Room, Synonyms, Treatment, Vocabulary, What, file_text, read,
+    read_rmf, read_virtualhome,
 };
 use orthoframe_map::{DoorState, World, check};
 use orthoframe_units::{AreaId, Cm, MapId, Point};
@@ -349,6 +350,47 @@ fn a_robot_begins_where_the_file_has_it() {
         let engine = Engine::in_memory(building.world, None).expect("rules are sound");
         let floor = &engine.floors().expect("the map has floors")[&map];
         assert!(floor.locate(pose.at).is_some(), "{name}: {start:?}");
+    }
+}
+
+/// Whatever a format calls its things, people have a word for it, in both languages.
+#[test]
+fn every_class_of_the_formats_has_a_name_in_both_languages() {
+    let table = Synonyms::built_in();
+    let text = |path: PathBuf| file_text(&path).expect("readable");
+    let mut classes: BTreeSet<String> = BTreeSet::new();
+    for name in ["clinic", "office", "triple_H"] {
+        let Some(path) = shared(&format!("rmf/{name}.building.yaml")) else { return };
+        classes.extend(read_rmf(&text(path)).expect("sound").kinds.into_iter().map(|k| k.word));
+    }
+    for n in 1..4 {
+        let Some(path) = shared(&format!("virtualhome/TestScene{n}_graph.json")) else { return };
+        let survey = read_virtualhome(&text(path)).expect("sound");
+        classes.extend(survey.kinds.into_iter().map(|k| k.word));
+    }
+    let Some(path) = shared("procthor/asset-database.json") else { return };
+    let assets: serde_json::Value = serde_json::from_str(text(path).text()).expect("JSON");
+    classes.extend(assets.as_object().expect("by class").keys().cloned());
+    // Parts of a wall that the reader makes doors and passages of.
+    classes.retain(|class| !["Doorframe", "Doorway"].contains(&class.as_str()));
+    let is_named = |class: &String| {
+        let found = table.find(Vocabulary::Object, class);
+        found.is_some_and(|f| !f.meaning.name.is_ascii() && !f.meaning.name_en.is_empty())
+    };
+    let unnamed: Vec<&String> = classes.iter().filter(|class| !is_named(class)).collect();
+    assert!(classes.len() > 200 && unnamed.is_empty(), "{unnamed:?}");
+}
+
+/// The people of a scene and the robots of a site stand on no map, and that is told.
+#[test]
+fn who_is_left_out_is_told() {
+    for (name, sort, many) in [
+        ("rmf/clinic.building.yaml", "роботов площадки", 4),
+        ("virtualhome/TestScene3_graph.json", "людей карта не хранит", 1),
+    ] {
+        let Some(building) = imported(name) else { continue };
+        let told = building.report.notes.iter().filter(|note| note.why.to_string().contains(sort));
+        assert_eq!(told.count(), many, "{name}");
     }
 }
 

@@ -244,3 +244,28 @@ fn in_is_never_on() {
         }
     }
 }
+
+/// "The lamp on the nightstand in the bedroom with the computer": the room has the computer, and all that it is said to
+/// have, and in that room the nightstand stands.
+#[test]
+fn a_room_behind_a_place_is_told_by_what_it_has() {
+    let Some(engine) = engine(HOUSES[1]) else { return };
+    for (described, named) in [
+        (
+            "Switch on the lamp on the nightstand in the bedroom with the computer.",
+            "Switch on Table lamp 3.",
+        ),
+        ("Включи лампу на тумбочке в спальне с компьютером.", "Включи Настольную лампу-3."),
+        (
+            "Put Cupcake 1 on the desk in the bedroom with the bed and the computer.",
+            "Put Cupcake 1 on Desk 2.",
+        ),
+        (
+            "Положи Пирожное-1 на письменный стол в спальне с кроватью и компьютером.",
+            "Положи Пирожное-1 на Письменный стол-2.",
+        ),
+    ] {
+        let named = format!("{:?}", heard(&engine, &[named]).expect(named));
+        assert_eq!(format!("{:?}", heard(&engine, &[described]).expect(described)), named);
+    }
+}

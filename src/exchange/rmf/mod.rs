@@ -370,7 +370,7 @@ impl Reader {
         })
     }
 
-    fn spots(&self, level: &str, records: &[Value], vertices: &[Option<Point>]) -> Vec<Spot> {
+    fn spots(&mut self, level: &str, records: &[Value], vertices: &[Option<Point>]) -> Vec<Spot> {
         let mut spots = Vec::new();
         for (i, (record, at)) in records.iter().zip(vertices).enumerate() {
             let Some(at) = at else { continue };
@@ -390,6 +390,13 @@ impl Reader {
                 name => name,
             };
             let spawned = record.get(4).and_then(|p| p.get("spawn_robot_name"));
+            if let Some(robot) = spawned.and_then(|robot| robot.get(1)).and_then(Value::as_str) {
+                let text = bilingual!(
+                    "робот «{robot}» не взят: роботов площадки карта не хранит, только место, где он начинает",
+                    "the robot “{robot}” is not taken: of the site's robots the map holds only where they begin"
+                );
+                self.survey.notes.push(Remark { source: format!("{level}/vertices/{i}"), text });
+            }
             if !name.is_empty() || !kind.is_empty() || spawned.is_some() {
                 spots.push(Spot {
                     source: format!("{level}/vertices/{i}"),

@@ -67,17 +67,24 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
     let mut openings = doors(&nodes, &rooms, &mut remarks);
     openings.extend(nodes.iter().filter(|n| n.category == "Windows").map(window));
     let mut pieces: Vec<Piece> = Vec::new();
-    let mut spots = Vec::new();
+    let (mut spots, mut notes) = (Vec::new(), Vec::new());
     for node in &nodes {
         match node.category {
-            "Characters" => spots.push(Spot {
-                source: node.id.clone(),
-                name: String::new(),
-                kind: String::new(),
-                at: node.middle(),
-                heading: None,
-                is_start: true,
-            }),
+            "Characters" => {
+                let text = (
+                    "персонаж не взят: людей карта не хранит; с его места начинает робот",
+                    "the character is not taken: the map holds no people; the robot begins at its place",
+                );
+                notes.push(remark(&node.id, text));
+                spots.push(Spot {
+                    source: node.id.clone(),
+                    name: String::new(),
+                    kind: String::new(),
+                    at: node.middle(),
+                    heading: None,
+                    is_start: true,
+                });
+            }
             "Rooms" | "Floor" | "Floors" | "Walls" | "Ceiling" | "Doors" | "Windows" => {}
             _ => match twin(node, &pieces) {
                 Some(first) => {
@@ -94,7 +101,7 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
     let Shelf { kinds, things, feet } = shelve(pieces);
     let level =
         Level { source: "0".to_owned(), rooms, openings, things, spots, ..Level::default() };
-    Ok(Survey { levels: vec![level], kinds, feet, remarks, ..Survey::default() })
+    Ok(Survey { levels: vec![level], kinds, feet, remarks, notes, ..Survey::default() })
 }
 
 struct Node<'v> {

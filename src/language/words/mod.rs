@@ -20,6 +20,7 @@ mod dictionary;
 pub mod english;
 pub(crate) mod everyday;
 mod grammar;
+mod identifier;
 mod index;
 mod letters;
 mod lexicon;

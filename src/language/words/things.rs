@@ -66,6 +66,8 @@ pub(crate) struct Things {
     /// Names of properties that nobody asks for by a word of their own, as imports and maps give them, in both languages.
     pub(crate) called: Vec<(String, String)>,
     pub(crate) values: Vec<Quality>,
+    /// Words of names that programs give, with their Russian: a noun, or the masculine of an adjective.
+    pub(crate) identifiers: Vec<(String, String)>,
 }
 
 /// A value with the property that it belongs to.
@@ -147,6 +149,10 @@ impl Things {
             "called" => {
                 let (russian, english) = rest.split_once(" : ")?;
                 self.called.push((russian.to_owned(), english.to_owned()));
+            }
+            "identifier" => {
+                let (english, russian) = rest.split_once(" : ")?;
+                self.identifiers.push((english.to_owned(), russian.to_owned()));
             }
             "value" => {
                 let parts: Vec<&str> = rest.split(" : ").collect();

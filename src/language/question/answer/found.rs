@@ -525,7 +525,7 @@ impl Knowledge<'_> {
         }
         if let [noun] = what
             && !any
-            && let Some(within) = self.within_instead(noun)
+            && let Some(within) = self.existing_instead(noun)
         {
             parts.push((true, within));
         }
@@ -557,15 +557,6 @@ impl Knowledge<'_> {
         };
         Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
             .about(&anchors))
-    }
-
-    /// «Пульт на комоде?» where it is in it.
-    fn within_instead(&self, noun: &Noun) -> Option<String> {
-        let [place] = &noun.restrictions[..] else { return None };
-        let mut within = noun.clone();
-        within.restrictions[0].rel = Rel::In;
-        let found = self.find(&within, true).ok().filter(|_| place.rel == Rel::On)?;
-        (!found.is_empty()).then(|| self.existing(&within, &found))
     }
 
     /// A description without those rooms, of several, in which nothing was found.
@@ -637,7 +628,7 @@ impl Knowledge<'_> {
     }
 
     /// «в Комнате-В есть 2 стула: Стул-1 и Стул-2», «в Комнате-В нет стульев»
-    fn existing(&self, noun: &Noun, things: &[Thing]) -> String {
+    pub(super) fn existing(&self, noun: &Noun, things: &[Thing]) -> String {
         let place = self.restrictions(&self.borne(noun, things));
         let blank = if place.is_empty() { String::new() } else { format!("{place} ") };
         if things.is_empty() {

@@ -162,7 +162,12 @@ impl Knowledge<'_> {
         let found = self.find(&noun, false)?;
         let where_each = |people: &[Thing]| {
             let told = people.iter().take(MOST_TOLD).map(|t| self.where_one(*t, &mut Vec::new()));
-            told.collect::<Vec<_>>().join("; ")
+            let more = people.len().saturating_sub(MOST_TOLD);
+            let more = (more > 0).then(|| match self.is_russian() {
+                true => format!("и ещё {more}"),
+                false => format!("and {more} more"),
+            });
+            told.chain(more).collect::<Vec<_>>().join("; ")
         };
         if found.is_empty() {
             let (place, elsewhere) = (self.restrictions(&noun), where_each(&all));

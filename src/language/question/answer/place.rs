@@ -5,7 +5,7 @@
 use super::{Draft, grouped};
 use crate::map::Entity;
 use crate::question::knowledge::{Held, Knowledge};
-use crate::question::query::{Extreme, Filter, Head, Noun, Rel, Thing};
+use crate::question::query::{Extreme, Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::question::{Doubt, Fact, Said};
 use crate::report::{Detail, Named};
 use crate::units::{AreaId, InOrder as _};
@@ -48,6 +48,22 @@ impl Knowledge<'_> {
         let text =
             if self.is_russian() { parts.join("; ") } else { enumerate(&parts, self.language) };
         Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) })
+    }
+
+    /// «Пульт на комоде?» where it is in it; "Is there a playground here?" where the robot's room has none and another has.
+    pub(super) fn existing_instead(&self, noun: &Noun) -> Option<String> {
+        let [place] = &noun.restrictions[..] else { return None };
+        let here = self.area_of(Thing::Robot).map(|area| Thing::Entity(Entity::Area(area)));
+        let is_here = here.is_some_and(|here| self.anchor_things(noun) == [here])
+            && matches!(place.rel, Rel::In | Rel::On)
+            && !(place.negated || noun.head.anything || noun.other || noun.denies());
+        let within = Restriction { rel: Rel::In, ..place.clone() };
+        let others = [(place.rel == Rel::On, vec![within]), (is_here, Vec::new())];
+        others.into_iter().filter(|(is_meant, _)| *is_meant).find_map(|(_, restrictions)| {
+            let noun = Noun { restrictions, ..noun.clone() };
+            let found = self.find(&noun, true).ok().filter(|found| !found.is_empty())?;
+            Some(self.existing(&noun, &found))
+        })
     }
 
     /// «на Столе-1 в Комнате-В»

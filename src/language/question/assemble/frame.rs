@@ -258,18 +258,23 @@ impl<'s, 't> Frame<'s, 't> {
                         anchors[0].indefinite = true;
                     }
                     let negated = denied && !concord;
-                    // "in a room with a window": the room has it.
+                    let spot = Spot { rel, nouns: anchors, either, at, negated };
+                    // "in a room with a window": the room has it, whatever else is in that room.
                     let before = at.checked_sub(1).filter(|_| rel == Rel::Has && !either);
+                    let activity = |(mark, _): &(Mark, usize)| matches!(mark, Mark::Activity(_));
+                    let with_what = frame.marks.iter().any(activity);
                     let room = frame.spots.iter().rposition(|spot| {
                         Some(spot.at) == before
-                            && matches!(&spot.nouns[..], [room] if frame.is_rooms(room))
+                            && matches!(&spot.nouns[..], [room]
+                                if frame.is_rooms(room) || frame.is_area(room) && !with_what)
                     });
-                    if let Some(room) = room {
-                        let place = Restriction { rel, anchors, negated };
-                        frame.spots[room].nouns[0].restrictions.push(place);
-                        continue;
+                    match room {
+                        Some(room) => {
+                            let places = spot.restrictions();
+                            frame.spots[room].nouns[0].restrictions.extend(places);
+                        }
+                        None => frame.spots.push(spot),
                     }
-                    frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
                 }
                 // "not on anything", «ни на чём», "next to nothing"
                 Item::Link(rel) if let Some(none) = of_whatever(sentence, items, at) => {

@@ -101,6 +101,13 @@ impl<'t> Sentence<'t> {
                     _ => mark,
                 }
             }
+            // "To the left nurse center", where a name begins so.
+            Some((taken @ 2.., Mark::Best(_) | Mark::Link(_)))
+                if let Some(before) =
+                    (1..taken).find(|n| self.name_length(at + n, lexicon) > taken - n) =>
+            {
+                vocabulary::longest(&keys[..before])
+            }
             // "… any idea where it is?"
             Some((2, Mark::Filler)) if at > 0 && keys == ["it", "is"] => {
                 Some((1, Mark::Pronoun(Pronoun::Any)))

@@ -157,6 +157,16 @@ impl Knowledge<'_> {
                 let words = restriction.anchors.first().unwrap_or(noun).text.clone();
                 return Err(Doubt::NotUnderstood { words });
             }
+            // «автоматы с напитками»: what a thing holds that nobody looked into is not told by a map that knows no drinks.
+            let holds = |id| self.world.has_trait(id, "container");
+            if let (Rel::Has | Rel::Bears, [held], false) =
+                (restriction.rel, &restriction.anchors[..], restriction.negated)
+                && !found.is_empty()
+                && found.iter().all(|t| t.replica().is_some_and(holds))
+                && self.base(&held.head).is_empty()
+            {
+                return Err(self.none_such(held));
+            }
             // "Which rooms are on the floor?": on the storey.
             if let ([floor], false) = (&restriction.anchors[..], restriction.negated)
                 && self.is_floor(floor)

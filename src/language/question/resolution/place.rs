@@ -68,7 +68,7 @@ impl Resolver<'_, '_> {
     ) -> Vec<Spot<'i>> {
         let mut spots: Vec<Spot<'i>> = Vec::new();
         for (n, item) in items.iter().enumerate() {
-            let Item::Place { rel, nouns, .. } = item else { continue };
+            let Item::Place { rel, nouns, either } = item else { continue };
             let Some(phrase) = nouns.first() else { continue };
             let rel = &self.having(*rel, phrase);
             // "The lamps in them": in each of the rooms that were told.
@@ -92,7 +92,13 @@ impl Resolver<'_, '_> {
             let at = self.bytes(&(from..last));
             let clause = clause_at(at.start);
             let anchors: Vec<Noun> = nouns.iter().map(|p| p.noun.clone()).collect();
-            let restriction = Restriction { rel: *rel, anchors, negated: false };
+            // "With the bed and the computer" has both.
+            let told: Vec<Vec<Noun>> = match *rel == Rel::Has && !either {
+                true => anchors.into_iter().map(|anchor| vec![anchor]).collect(),
+                false => vec![anchors],
+            };
+            let told =
+                told.into_iter().map(|anchors| Restriction { rel: *rel, anchors, negated: false });
             let adjacent = matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Place { .. }));
             if let Some(last) = spots.last_mut()
                 && adjacent
@@ -103,7 +109,12 @@ impl Resolver<'_, '_> {
                     && self.is_put_beside(last, *rel, phrase, &items[n + 1..]))
                 && self.tells_where(last, *rel, phrase, sort(clause))
             {
-                last.within.push(restriction);
+                // "On the nightstand in the bedroom with the computer": the room has it.
+                let room = last.within.last_mut().and_then(|place| place.anchors.last_mut());
+                match room.filter(|room| *rel == Rel::Has && self.is_room(room)) {
+                    Some(room) => room.restrictions.extend(told),
+                    None => last.within.extend(told),
+                }
                 last.attached.push(at);
                 continue;
             }
@@ -119,6 +130,12 @@ impl Resolver<'_, '_> {
             });
         }
         spots
+    }
+
+    /// Whether a noun is of rooms, and of nothing else.
+    fn is_room(&self, noun: &Noun) -> bool {
+        let base = self.knowledge.base(&noun.head);
+        !base.is_empty() && base.iter().all(|thing| thing.area().is_some())
     }
 
     /// «стол с вазой» is not «со стола»: its case tells.

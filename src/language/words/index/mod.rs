@@ -23,6 +23,7 @@ mod spelled;
 
 use super::english;
 use super::grammar::{Case, Number, WordHints};
+use super::identifier;
 use super::list::Language;
 use super::phrase::NounPhrase;
 use crate::units::InOrder as _;
@@ -185,7 +186,8 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         self.add_name(&name, tag, stem, id);
     }
 
-    /// Adds an English name: as it is, its plural, its possessive, and the word that names its kind.
+    /// Adds an English name: as it is, its plural, its possessive, the word that names its kind, and what is said for an
+    /// identifier.
     pub fn insert_english(&mut self, english_name: &str, id: T) {
         let (text, tag) = split_tag(english_name);
         let stem = match self.known.get(&(false, text.into())) {
@@ -196,6 +198,15 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
                 self.add_english(text, stem, false);
                 if let Some(short) = english::kind(text) {
                     self.add_english(short, stem, true);
+                }
+                for said in identifier::spoken(text) {
+                    match Language::of(&said) {
+                        Language::English => self.add_english(&said, stem, true),
+                        Language::Russian => {
+                            let phrase = NounPhrase::parse(&said, &WordHints::default());
+                            self.add_forms(&phrase, stem, true);
+                        }
+                    }
                 }
                 stem
             }
