@@ -118,6 +118,7 @@ mod vehicle;
 mod vehicle_schema;
 mod views;
 mod ways;
+mod whole_orders;
 mod words;
 mod worlds;
 mod wrapped;
