@@ -196,7 +196,7 @@ fn a_table_is_cleared_and_a_cup_is_put_away() {
     let engine = Engine::in_memory(lab(), None).unwrap();
     let refused = engine.perform("Clear the desk", &mut |_| {}).unwrap_err();
     let said = refused.say(Language::English);
-    assert!(said.contains("kept there: Battery 1"), "{said}");
+    assert!(said.contains("kept elsewhere: Battery 1"), "{said}");
 }
 
 /// To close is no more than that: what is locked stays so, and what is so already does not take its neighbour's goal
@@ -267,4 +267,27 @@ fn stop_stops() {
     let both = heard(&engine, "Стоп! Принеси Чашку-2").unwrap();
     assert!(both.starts_with("Stop;Bring"), "{both}");
     assert!(heard(&engine, "Принеси Чашку-2, нет, отмена").is_none_or(|h| h == "Stop;"));
+}
+
+/// What is not begun behind what came to nothing is told, each part of it.
+#[test]
+fn what_is_not_begun_is_told_part_by_part() {
+    let mut world = lab();
+    let Entity::Door(office) = world.find("Office door")[0] else { panic!() };
+    world.doors.get_mut(&office).unwrap().state = DoorState::LOCKED;
+    let order = "Go to the office, then open the lab door, turn on Lamp 1 and bring Toolbox 1";
+    let engine = Engine::in_memory(world, None).unwrap();
+    let answer = engine.perform(order, &mut |_| {}).unwrap();
+    for (language, parts) in [
+        (
+            Language::English,
+            ["Not begun: ", "open the lab door", "switch on Lamp 1", "give Toolbox 1 to"],
+        ),
+        (Language::Russian, ["Не начато: ", "открыть ", "включить ", "передать "]),
+    ] {
+        let told = engine.ending_in_words(&answer, language).unwrap();
+        for part in parts {
+            assert_eq!(told.matches(part).count(), 1, "{part}: {told}");
+        }
+    }
 }
