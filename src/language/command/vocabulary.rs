@@ -349,8 +349,8 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         Meaning::Me,
         "мне|меня|ко мне|до меня|сюда|оператору|к оператору|to the operator|to operator|me|to me|here|over here",
     ),
-    (Meaning::Pronoun, "его|её|него|неё|ней|ним|ему|нему|нём|ей|ею|it|him|her"),
-    (Meaning::Them, "их|них|им|ими|ними|them|both of them|all of them"),
+    (Meaning::Pronoun, "его|её|него|неё|ней|ему|нему|нём|ей|ею|it|him|her"),
+    (Meaning::Them, "их|них|им|ним|ими|ними|them|both of them|all of them"),
 ];
 
 /// What takes back what was ordered before it, and says what is meant instead.
