@@ -96,6 +96,7 @@ mod scenes;
 mod scope;
 mod several_places;
 mod shut_holders;
+mod spoken_orders;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;
@@ -118,6 +119,7 @@ mod vehicle;
 mod vehicle_schema;
 mod views;
 mod ways;
+mod whole_orders;
 mod words;
 mod worlds;
 mod wrapped;

@@ -10,7 +10,7 @@ use crate::files::shared;
 const HOUSES: [&str; 2] = ["procthor/house_9.json", "procthor/house_1.json"];
 
 /// A house in a store, which keeps what orders have moved; none where the file is not there.
-fn engine(house: &str) -> Option<(tempfile::TempDir, Engine)> {
+pub(crate) fn engine(house: &str) -> Option<(tempfile::TempDir, Engine)> {
     let path = shared(house)?;
     let dir = tempfile::tempdir().unwrap();
     let mut engine = Engine::open(dir.path(), None).expect("a new store");

@@ -138,3 +138,26 @@ fn what_is_in_what_is_shut_is_brought_or_nothing_was_touched() {
     }
     assert!(done > 3 && refused > 3, "{done} done, {refused} refused");
 }
+
+/// A dishwasher in a counter that is shut: that is opened before anything is in the hand, and all is shut again.
+#[test]
+fn what_stands_in_something_shut_is_opened_from_without() {
+    let Some((_dir, mut engine)) = opened("virtualhome/TestScene3_graph.json", true) else {
+        return;
+    };
+    for (order, place) in [
+        ("Put Plate 1 in Dishwasher 1", "in Dishwasher 1"),
+        ("Возьми Тарелку-1 из Посудомоечной машины-1", "hand"),
+    ] {
+        let mut dialogue = Dialogue::default();
+        let heard = dialogue.hear(&mut engine, order, &mut |_, _| {}).unwrap();
+        assert!(heard.tasks().any(|task| task.ending.is_done()), "{order}: {}", heard.text());
+        let asked = dialogue.hear(&mut engine, "Where is Plate 1?", &mut |_, _| {}).unwrap();
+        assert!(asked.text().contains(place), "{order}: {}", asked.text());
+        let now = engine.uncarried().unwrap();
+        for name in ["Dishwasher 1", "Counter 2"] {
+            let thing = now.replicas.values().find(|it| it.name_en == name).expect("it stands");
+            assert_eq!(stands(now, thing), Some(DoorStatus::Closed), "{order}: {name}");
+        }
+    }
+}

@@ -5,9 +5,9 @@ use crate::language::report::Named;
 use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
-use crate::robot::{Directive, IN_MIDDLE, Primitive, STARTING_POINT};
+use crate::robot::{Directive, GoalFact, IN_MIDDLE, Primitive, STARTING_POINT};
 use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
-use crate::semantics::predicate;
+use crate::semantics::{predicate, storey_name};
 use crate::units::Bilingual;
 
 use super::located::spot_in_words;
@@ -101,12 +101,69 @@ pub(crate) fn directive_in_words(
         (DoorStatus::Closed, false) => ("закрыть", "close"),
         (DoorStatus::Locked, _) => ("запереть", "lock"),
     };
+    let inside = directive.brings_about(predicate::THING_IN);
     let told: Vec<String> =
-        directive.primitives().iter().map(|it| words.primitive(it, directive, opened)).collect();
+        directive.primitives().iter().map(|it| words.primitive(it, inside, opened)).collect();
     match told.is_empty() {
         true => words.action(&directive.action, &directive.args),
         false => told.join(language.pick(" и ", " and ")),
     }
+}
+
+/// What a goal asks for, as one tells a person: «поехать в Комнату-Y», "switch on Lamp 1".
+#[must_use]
+pub(super) fn goal_in_words(world: &World, goal: &GoalFact, language: Language) -> String {
+    let words = Words { world, language };
+    let other = |n: usize| goal.args.get(n).cloned().unwrap_or_default();
+    let name = other(0);
+    let accusative = |name: &str| words.name(name, Case::Accusative);
+    let pick = |ru, en| language.pick(ru, en);
+    let wanted = goal.predicate.as_str();
+    let primitive = match wanted {
+        predicate::ROBOT_AT_PLACE => Primitive::GoToPlace(name),
+        predicate::ROBOT_AT_DOOR => Primitive::GoToDoor(name),
+        predicate::ROBOT_HOLDS => Primitive::Take(name),
+        predicate::FOUND => Primitive::Seek(name),
+        predicate::CALLED => Primitive::Call(name),
+        predicate::CABIN_AT => Primitive::CallLift { lift: name, door: other(1) },
+        predicate::HANDED_OVER => Primitive::HandOver { thing: name, person: other(1) },
+        predicate::THING_ON | predicate::THING_IN => {
+            Primitive::Put { thing: name, onto: Some(other(1)) }
+        }
+        predicate::THING_AT_PLACE => Primitive::Put { thing: name, onto: None },
+        predicate::DEVICE_ON | predicate::DEVICE_OFF => {
+            Primitive::Switch { device: name, on: wanted == predicate::DEVICE_ON }
+        }
+        predicate::STANDS_OPEN | predicate::STANDS_SHUT => {
+            Primitive::SetOpen { thing: name, open: wanted == predicate::STANDS_OPEN }
+        }
+        predicate::DOOR_OPEN => Primitive::SetDoor { door: name, status: DoorStatus::Open },
+        predicate::DOOR_CLOSED => Primitive::SetDoor { door: name, status: DoorStatus::Closed },
+        predicate::DOOR_LOCKED => Primitive::SetDoor { door: name, status: DoorStatus::Locked },
+        predicate::ROBOT_IN => {
+            return format!("{} {}", pick("поехать", "drive"), words.through_to(&name));
+        }
+        predicate::ROBOT_ON_STOREY => {
+            let map = world.maps.keys().find(|map| storey_name(world, **map) == name);
+            let to = map.map(|map| named(world, Entity::Map(*map)).whither_storey(language));
+            return format!("{} {}", pick("поехать", "drive"), to.unwrap_or(name));
+        }
+        predicate::IN_ITS_PLACE => {
+            let (verb, back) = (pick("вернуть", "put"), pick("на место", "back in its place"));
+            return format!("{verb} {} {back}", accusative(&name));
+        }
+        predicate::THROWN_AWAY => match language {
+            Language::Russian => return format!("выбросить {}", accusative(&name)),
+            Language::English => return format!("throw {} away", accusative(&name)),
+        },
+        _ => return words.action(wanted, &goal.args),
+    };
+    // What is to be closed may be closed now, or locked.
+    words.primitive(&primitive, wanted == predicate::THING_IN, |status| match status {
+        DoorStatus::Open => ("открыть", "open"),
+        DoorStatus::Closed => ("закрыть (не на замок)", "close (not lock)"),
+        DoorStatus::Locked => ("запереть", "lock"),
+    })
 }
 
 impl Report {
@@ -367,10 +424,11 @@ struct Words<'w> {
 }
 
 impl Words<'_> {
+    /// `inside`: what is put somewhere is put into it.
     fn primitive(
         &self,
         primitive: &Primitive,
-        directive: &Directive,
+        inside: bool,
         opened: impl Fn(DoorStatus) -> (&'static str, &'static str),
     ) -> String {
         let pick = |ru, en| self.language.pick(ru, en);
@@ -418,7 +476,7 @@ impl Words<'_> {
                 "{} {} {}",
                 pick("положить", "put"),
                 accusative(thing),
-                if directive.brings_about(predicate::THING_IN) {
+                if inside {
                     self.at(Preposition::V, "in", onto)
                 } else {
                     format!("{} {}", pick("на", "on"), accusative(onto))
@@ -456,9 +514,10 @@ impl Words<'_> {
     }
 
     /// «Вымыть_посуду_(Тарелка-1)» as «вымыть посуду: Тарелка-1».
-    fn action(&self, action: &str, args: &[std::sync::Arc<str>]) -> String {
+    fn action(&self, action: &str, args: &[impl AsRef<str>]) -> String {
         let name = action.split('_').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
-        let args: Vec<String> = args.iter().map(|arg| self.name(arg, Case::Nominative)).collect();
+        let args: Vec<String> =
+            args.iter().map(|arg| self.name(arg.as_ref(), Case::Nominative)).collect();
         match args.is_empty() {
             true => name.to_lowercase(),
             false => format!("{}: {}", name.to_lowercase(), args.join(", ")),

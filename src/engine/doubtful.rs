@@ -82,6 +82,42 @@ impl State {
         Ok(())
     }
 
+    /// What something is to be put into or taken out of, and stands in something shut itself, a drawer in a wardrobe: that
+    /// is opened before, the outermost first, while the hand is free, and shut again behind.
+    pub(super) fn opened_around(
+        &self,
+        goals: Vec<Vec<GoalFact>>,
+        relations: &Relations,
+    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let world = self.world()?;
+        let replica = |entity| match entity {
+            Entity::Replica(id) => Some(id),
+            _ => None,
+        };
+        let stands = |predicate: &str, id: &ReplicaId| {
+            let args = vec![world.name(Entity::Replica(*id)).to_owned()];
+            vec![GoalFact { predicate: predicate.to_owned(), args }]
+        };
+        let mut all = Vec::new();
+        for goal in goals {
+            let shut = goal.iter().filter(|fact| fact.predicate == predicate::STANDS_SHUT);
+            let inner = shut.filter_map(|fact| fact.args.first()).filter(|_| goal.len() > 1);
+            let mut around: Vec<ReplicaId> = Vec::new();
+            for inner in inner.filter_map(|name| world.find(name).into_iter().find_map(replica)) {
+                let outer = |at: &ReplicaId| relations.shut_in(*at).filter(|id| self.can_open(*id));
+                let mut next = outer(&inner);
+                while let Some(id) = next.filter(|id| !around.contains(id)) {
+                    around.push(id);
+                    next = outer(&id);
+                }
+            }
+            all.extend(around.iter().rev().map(|id| stands(predicate::STANDS_OPEN, id)));
+            all.push(goal);
+            all.extend(around.iter().map(|id| stands(predicate::STANDS_SHUT, id)));
+        }
+        Ok(all)
+    }
+
     /// The things that commands order to be carried, where something is to be done for that.
     fn carried_by(
         &self,

@@ -110,7 +110,9 @@ impl InEnglish for RequestError {
             Self::KeptThere { things, name } => {
                 let things: Vec<&str> = things.iter().map(en).collect();
                 let (name, things) = (en(name), things.join(", "));
-                format!("all that lies on {name} is kept there: {things}; where is it to be put?")
+                format!(
+                    "nothing on {name} is known to be kept elsewhere: {things}; where is it to be put?"
+                )
             }
             Self::OneHand { things } => {
                 let things: Vec<&str> = things.iter().map(en).collect();
@@ -119,13 +121,20 @@ impl InEnglish for RequestError {
                     "I have one hand and cannot hold all of these: {things}; where are they to be put?"
                 )
             }
-            Self::AtHome { thing, home } => {
-                format!("{} lies where it is kept: {}", en(thing), en(home))
+            Self::AtHome { things } => {
+                let told =
+                    |thing, home| format!("{} lies where it is kept: {}", en(thing), en(home));
+                let each = things.iter().map(|(thing, home)| told(thing, home));
+                each.collect::<Vec<_>>().join("; ")
             }
             Self::NotADevice { name } => {
                 format!("{} can be switched neither on nor off", en(name))
             }
-            Self::Homeless { thing } => format!("it is not known where {} belongs", en(thing)),
+            Self::Homeless { things } => {
+                let things: Vec<&str> = things.iter().map(en).collect();
+                let belong = if things.len() == 1 { "belongs" } else { "belong" };
+                format!("it is not known where {} {belong}", things.join(", "))
+            }
             Self::NoHome { thing, home } => {
                 format!("{} is kept on \"{home}\", and the map has no such thing", en(thing))
             }

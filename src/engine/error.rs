@@ -395,14 +395,14 @@ pub enum RequestError {
     NotCleaned { name: Bilingual },
 
     /// A thing is to be cleared of what is kept on it.
-    #[error("на «{name}» лежит только то, что там и хранится: «{}»; куда это положить?", russian_names(things).join("», «"))]
+    #[error("на «{name}» нет ничего, чьё место известно и не там: «{}»; куда это положить?", russian_names(things).join("», «"))]
     #[diagnostic(code(engine::kept_there), help("скажите, куда это положить"))]
     KeptThere { things: Vec<Bilingual>, name: Bilingual },
 
-    /// A thing is to be put away that lies where it is kept.
-    #[error("«{thing}» лежит там, где и хранится: «{home}»")]
+    /// Things are to be put away that lie where they are kept, each with that.
+    #[error("{}", told_each(things, |thing, home| format!("«{thing}» лежит там, где и хранится: «{home}»")))]
     #[diagnostic(code(engine::at_home), help("скажите, куда это положить"))]
-    AtHome { thing: Bilingual, home: Bilingual },
+    AtHome { things: Vec<(Bilingual, Bilingual)> },
 
     /// Several things that are to be taken, and put nowhere.
     #[error("рука у робота одна, а взять велено несколько вещей: «{}»; куда их положить?", russian_names(things).join("», «"))]
@@ -414,13 +414,13 @@ pub enum RequestError {
     #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]
     NotADevice { name: Bilingual },
 
-    /// Nobody knows where a thing belongs.
-    #[error("неизвестно, где место для «{thing}»")]
+    /// Nobody knows where some things belong.
+    #[error("неизвестно, где место для «{}»", russian_names(things).join("», «"))]
     #[diagnostic(
         code(engine::homeless),
         help("скажите, куда положить, или дайте вещи свойство ХРАНИТСЯ_НА")
     )]
-    Homeless { thing: Bilingual },
+    Homeless { things: Vec<Bilingual> },
 
     /// The place where a thing is kept is not on the map.
     #[error("«{thing}» хранится на «{home}», а такой вещи на карте нет")]
@@ -614,6 +614,13 @@ pub(super) fn in_both(world: &World, name: &str) -> Bilingual {
 
 fn russian_names(names: &[Bilingual]) -> Vec<&str> {
     names.iter().map(|name| name.say(Language::Russian)).collect()
+}
+
+fn told_each(
+    things: &[(Bilingual, Bilingual)],
+    told: impl Fn(&Bilingual, &Bilingual) -> String,
+) -> String {
+    things.iter().map(|(thing, home)| told(thing, home)).collect::<Vec<_>>().join("; ")
 }
 
 fn sentence(told: &str) -> String {

@@ -195,8 +195,8 @@ impl State {
                     let Some(home) = self.home_of(&name(what.id), relations)? else {
                         return match (command, self.homes()?.remove(&name(what.id))) {
                             (Command::PutAway(_), Some(home)) => {
-                                let (thing, home) = (both(what.id), in_both(world, &home));
-                                Err(RequestError::AtHome { thing, home }.into())
+                                let things = vec![(both(what.id), in_both(world, &home))];
+                                Err(RequestError::AtHome { things }.into())
                             }
                             _ => Ok(Vec::new()),
                         };
@@ -243,7 +243,8 @@ impl State {
         let world = self.world()?;
         let name = world.name(thing).to_owned();
         let home = self.homes()?.remove(&name);
-        let home = home.ok_or_else(|| RequestError::Homeless { thing: in_both(world, &name) })?;
+        let home =
+            home.ok_or_else(|| RequestError::Homeless { things: vec![in_both(world, &name)] })?;
         belief.homes.push((name.clone(), home));
         Ok(vec![vec![fact(predicate::IN_ITS_PLACE, vec![name])]])
     }

@@ -12,7 +12,7 @@ use crate::semantics::predicate;
 use crate::strips::{OperatorId, Said, Wording};
 
 use super::assumed::assumptions_in_russian;
-use super::directive_words::{actions_in_words, directive_in_words, name_in};
+use super::directive_words::{actions_in_words, directive_in_words, goal_in_words, name_in};
 use super::surprises::{barred_in_words, surprise_in_words};
 use super::task::{Progress, TaskAnswer, TaskEnding};
 use super::{Error, State};
@@ -330,9 +330,24 @@ fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
             }
         });
     }
-    if answer.not_begun > 0 {
-        let rest = "\nОстальное из этого задания не начато.";
-        told.push_str(language.pick(rest, "\nThe rest of this order was not begun."));
+    for (thing, home) in &answer.kept {
+        let (thing, home) = (name_in(world, thing, language), name_in(world, home, language));
+        told.push_str(&match language {
+            Language::Russian => format!("\n«{thing}» лежит там, где и хранится: «{home}»."),
+            Language::English => format!("\n{thing} lies where it is kept: {home}."),
+        });
+    }
+    // A door is asked for from both of its sides.
+    let mut rest: Vec<String> = Vec::new();
+    for goal in &answer.not_begun {
+        let wanted = goal_in_words(world, goal, language);
+        if !rest.contains(&wanted) {
+            rest.push(wanted);
+        }
+    }
+    if !rest.is_empty() {
+        let head = language.pick("Не начато", "Not begun");
+        told.push_str(&format!("\n{head}: {}.", rest.join("; ")));
     }
     told
 }
@@ -347,7 +362,7 @@ fn unfinished(
         TaskEnding::Done | TaskEnding::AlreadyTrue => match &answer.reported {
             Some(position) => position.say(language),
             None if answer.stops => nothing_to_stop(language).to_owned(),
-            None if answer.tidies && !answer.strays.is_empty() => language
+            None if !answer.strays.is_empty() || !answer.kept.is_empty() => language
                 .pick("Больше убирать нечего.", "Nothing else is to be put away.")
                 .to_owned(),
             None if answer.tidies => {

@@ -121,8 +121,10 @@ pub struct TaskAnswer {
     pub left: Vec<(GoalFact, TaskEnding)>,
     /// What was to be tidied and has no place, by name: it was moved, and is where it is.
     pub strays: Vec<String>,
-    /// How many goals of the sentence were not begun, since one before them was out of reach.
-    pub not_begun: usize,
+    /// What was to be put away and lies where it is kept, by name, with that.
+    pub kept: Vec<(String, String)>,
+    /// What the sentence asked for beside, and was not begun, since what was asked for before it came to nothing.
+    pub not_begun: Vec<GoalFact>,
     /// Whether it was told to tidy: «Убери со стола».
     pub tidies: bool,
     /// Whether it was only told to stop: each task runs to its end before the next is heard, so nothing was under way.
@@ -359,9 +361,11 @@ impl State {
         let (mut belief, here) = self.belief_of()?;
         let followed = self.followed_with(&belief)?;
         let relations = followed.relations();
-        let mut goals = self.goals_of(commands, &here, relations, &mut belief)?;
-        self.shut_again(commands, &mut goals, relations)?;
-        let unsure = self.unsure_of(commands, &goals)?;
+        let (commands, staying) = self.staying(commands, relations)?;
+        let mut goals = self.goals_of(&commands, &here, relations, &mut belief)?;
+        self.shut_again(&commands, &mut goals, relations)?;
+        let mut goals = self.opened_around(goals, relations)?;
+        let unsure = self.unsure_of(&commands, &goals)?;
         // Of what it is not sure where it is, it looks first.
         for (thing, _) in unsure.iter().rev() {
             let name = self.world()?.name(Entity::Replica(*thing)).to_owned();
@@ -390,20 +394,16 @@ impl State {
         };
         let kept = |c: &Command<_>| matches!(c, Command::PutBack(_) | Command::PutAway(_));
         let tidies = commands.iter().any(|c| tidying(c) || kept(c));
-        let strays = match &commands.iter().filter(|c| tidying(c)).collect::<Vec<_>>()[..] {
-            [Command::Tidy(within) | Command::Clean(within)] => self.strays(*within, relations)?,
-            _ => Vec::new(),
-        };
         let domain = &self.rules.robot;
         let errand = Errand { domain, belief, relations: followed, goals, tidies };
         let mut answer = self.drive(errand, vehicle, tell, stop)?;
-        answer.strays = strays;
+        (answer.strays, answer.kept) = (staying.strays, staying.kept);
         let must_report = matches!(answer.ending, TaskEnding::Stopped)
             || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
         let reported = must_report.then(|| self.locate(answer.end_map, answer.end, false));
         answer.reported = reported.and_then(Result::ok).map(|found| found.position);
         answer.tidies = commands.iter().any(tidying);
-        answer.stops = matches!(commands, [Command::Stop]);
+        answer.stops = matches!(&commands[..], [Command::Stop]);
         answer.unsure = unsure;
         Ok(answer)
     }
@@ -543,7 +543,8 @@ impl State {
             ending,
             left,
             strays: Vec::new(),
-            not_begun: goals.len() - begun,
+            kept: Vec::new(),
+            not_begun: each_once(&goals).split_off(each_once(&goals[..begun]).len()),
             tidies: false,
             stops: false,
             reported: None,
@@ -604,7 +605,8 @@ impl State {
             ending: TaskEnding::Failed(failure),
             left: Vec::new(),
             strays: Vec::new(),
-            not_begun: 0,
+            kept: Vec::new(),
+            not_begun: Vec::new(),
             tidies: false,
             stops: false,
             reported: None,

@@ -1,14 +1,25 @@
 //! What is not where it belongs: the home of a thing is the one that its property names, else where it was surveyed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use crate::language::command::Command;
 use crate::map::{Entity, Mark, Replica, World};
 use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
 use super::error::in_both;
+use super::task::thing_of;
 use super::{Error, RequestError, State};
 use crate::units::Gather as _;
+
+/// What stays where it is of what is to be put back, put away or tidied, by name.
+#[derive(Debug, Default)]
+pub(super) struct Staying {
+    /// What has no home, and was moved.
+    pub(super) strays: Vec<String>,
+    /// What is to be put away and lies where it is kept, with that.
+    pub(super) kept: Vec<(String, String)>,
+}
 
 impl State {
     /// The things that are not where they belong, each with the name of its home, in the order of their names.
@@ -85,6 +96,91 @@ impl State {
         Ok(homeless.filter(is_astray).map(|thing| thing.name.clone()).collect())
     }
 
+    /// Commands without what stays where it is of several things that are to be put back or away, and what stays: where
+    /// nothing could be put away of all that is named, they are refused instead.
+    ///
+    /// # Errors
+    /// All of them stay, for one reason.
+    pub(super) fn staying(
+        &self,
+        commands: &[Command<Entity>],
+        relations: &Relations,
+    ) -> Result<(Vec<Command<Entity>>, Staying), Error> {
+        let concerns = |command: &Command<Entity>| match command {
+            Command::Tidy(_) | Command::Clean(_) | Command::Clear { .. } => true,
+            command => matches!(command, Command::PutBack(_) | Command::PutAway(_)),
+        };
+        if !commands.iter().any(concerns) {
+            return Ok((commands.to_vec(), Staying::default()));
+        }
+        let (world, homes) = (self.world()?, self.homes()?);
+        let lie_on = supports(self.uncarried()?, relations);
+        let mut staying = Staying::default();
+        for command in commands {
+            match command {
+                Command::Tidy(within) | Command::Clean(within) => {
+                    staying.strays.extend(self.strays(*within, relations)?);
+                }
+                Command::Clear { from, to: None } => {
+                    staying.strays.extend(self.strays(Some(*from), relations)?);
+                    let own = world.name(*from);
+                    let kept = lie_on.iter().filter(|(thing, on)| {
+                        *on == own && homes.get(*thing).is_some_and(|home| home == own)
+                    });
+                    staying.kept.extend(kept.map(|(thing, on)| (thing.clone(), on.clone())));
+                }
+                _ => {}
+            }
+        }
+        let is_put = |n: &usize| match &commands[*n] {
+            Command::PutBack(what) | Command::PutAway(what) => {
+                let before = commands[..*n].iter().any(|c| thing_of(c) == Some(what.id));
+                let carried =
+                    matches!(what.id, Entity::Replica(id) if world.has_trait(id, "portable"));
+                carried && !before
+            }
+            _ => false,
+        };
+        let put: Vec<usize> = (0..commands.len()).filter(is_put).collect();
+        let mut own = Staying::default();
+        let mut left = BTreeSet::new();
+        let astray = self.strays(None, relations)?;
+        for n in put.iter().filter(|_| put.len() > 1) {
+            let away = matches!(commands[*n], Command::PutAway(_));
+            let Some(thing) = thing_of(&commands[*n]).map(|thing| world.name(thing)) else {
+                continue;
+            };
+            match homes.get(thing) {
+                None if away || astray.iter().any(|stray| stray == thing) => {
+                    own.strays.push(thing.to_owned());
+                }
+                // It was never moved.
+                None => {}
+                Some(home) if away && lie_on.get(thing) == Some(home) => {
+                    own.kept.push((thing.to_owned(), home.clone()));
+                }
+                Some(_) => continue,
+            }
+            left.insert(*n);
+        }
+        let both = |name: &String| in_both(world, name);
+        match (left.len() == put.len(), own.strays.is_empty(), own.kept.is_empty()) {
+            (true, false, true) => {
+                let things = own.strays.iter().map(both).collect();
+                return Err(RequestError::Homeless { things }.into());
+            }
+            (true, true, false) => {
+                let things = own.kept.iter().map(|(thing, home)| (both(thing), both(home)));
+                return Err(RequestError::AtHome { things: things.collect() }.into());
+            }
+            _ => {}
+        }
+        staying.strays.extend(own.strays);
+        staying.kept.extend(own.kept);
+        let begun = (0..commands.len()).filter(|n| !left.contains(n)).map(|n| commands[n].clone());
+        Ok((begun.collect(), staying))
+    }
+
     /// The names of what lies on a thing and can be carried.
     pub(super) fn lying_on(
         &self,
@@ -107,7 +203,8 @@ impl State {
     ) -> Result<Option<String>, Error> {
         let world = self.world()?;
         let home = self.homes()?.remove(thing);
-        let home = home.ok_or_else(|| RequestError::Homeless { thing: in_both(world, thing) })?;
+        let home =
+            home.ok_or_else(|| RequestError::Homeless { things: vec![in_both(world, thing)] })?;
         Ok((supports(self.uncarried()?, relations).get(thing) != Some(&home)).then_some(home))
     }
 

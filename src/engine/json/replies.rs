@@ -10,6 +10,7 @@ use crate::engine::{
     Unanswered, World, surprise_in_words,
 };
 use crate::language::Language;
+use crate::robot::GoalFact;
 
 /// What a dialogue replied: an answer with its rule and proofs, a task with its steps, else the outcome and its words.
 ///
@@ -94,12 +95,13 @@ pub fn doubt(unanswered: &Unanswered) -> Value {
 
 /// A task carried out, or shown impossible.
 pub fn task(world: &World, answer: &TaskAnswer) -> Value {
-    let goal: Vec<Value> =
-        answer.goal.iter().map(|g| json!({"predicate": g.predicate, "args": g.args})).collect();
+    let goals = |all: &[GoalFact]| -> Vec<Value> {
+        all.iter().map(|g| json!({"predicate": g.predicate, "args": g.args})).collect()
+    };
     let mut view = json!({
         "outcome": answer.word(),
         "map": world.maps[&answer.map].name,
-        "goal": goal,
+        "goal": goals(&answer.goal),
         "start": pose(answer.start),
         "end": pose(answer.end),
         "end_map": world.maps[&answer.end_map].name,
@@ -127,8 +129,8 @@ pub fn task(world: &World, answer: &TaskAnswer) -> Value {
         let left = answer.left.iter().map(|(goal, _)| json!(goal.args)).collect::<Vec<_>>();
         view["left"] = json!(left);
     }
-    if answer.not_begun > 0 {
-        view["not_begun"] = json!(answer.not_begun);
+    if !answer.not_begun.is_empty() {
+        view["not_begun"] = json!(goals(&answer.not_begun));
     }
     if let Some(position) = &answer.reported {
         view["ru"] = json!(position.say(Language::Russian));

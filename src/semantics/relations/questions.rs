@@ -290,7 +290,12 @@ impl Relations {
     /// What shut thing a thing is in.
     #[must_use]
     pub fn shut_in(&self, id: ReplicaId) -> Option<ReplicaId> {
-        self.second_of("SHUT_IN", id).min()
+        let all: BTreeSet<ReplicaId> = self.second_of("SHUT_IN", id).collect();
+        let holds = |outer: ReplicaId, inner: ReplicaId| {
+            inner != outer && self.second_of("SHUT_IN", inner).any(|around| around == outer)
+        };
+        let innermost = |one: &ReplicaId| !all.iter().any(|other| holds(*one, *other));
+        all.iter().copied().find(innermost).or(all.first().copied())
     }
 
     /// Whether a thing is in another.
