@@ -41,6 +41,7 @@ const MARKS: &[Mark] = &[
     Mark::HowBig(Dimension::Width),
     Mark::HowBig(Dimension::Length),
     Mark::HowBig(Dimension::Area),
+    Mark::HowBig(Dimension::Sides),
     Mark::Exists,
     Mark::Be,
     Mark::Have,
@@ -59,6 +60,7 @@ const MARKS: &[Mark] = &[
     Mark::PutDown,
     Mark::Can,
     Mark::Hold,
+    Mark::Take,
     Mark::You,
     Mark::Me,
     Mark::Not,
@@ -186,6 +188,7 @@ const MARKS: &[Mark] = &[
     Mark::These,
     Mark::Listed,
     Mark::Total,
+    Mark::Now,
     Mark::Everywhere,
     Mark::Polite(Courtesy::Greeting),
     Mark::Polite(Courtesy::Thanks),
@@ -313,6 +316,7 @@ fn is_bound(mark: Mark) -> bool {
         Mark::These
             | Mark::Listed
             | Mark::Total
+            | Mark::Now
             | Mark::Everywhere
             | Mark::Polite(_)
             | Mark::BesidePolite
