@@ -143,3 +143,33 @@ fn a_place_completes_only_the_order_before_it() {
     assert!(heard.replies.iter().any(|reply| matches!(&reply.outcome, Outcome::Task(_))));
     assert!(where_is(&engine, "Bowl 2").contains("Sofa 1"));
 }
+
+/// "How many are there now?" is of the place that was counted, not of what the robot has taken from it since; and what a full
+/// hand hinders is told.
+#[test]
+fn what_was_counted_is_counted_anew_and_a_full_hand_takes_nothing() {
+    let lines = [
+        ("How many things are on Sofa 1?", "Take Book 2", "How many are there now?"),
+        ("Сколько вещей на Диване-1?", "Возьми Книгу-2", "Сколько их там теперь?"),
+    ];
+    for (counted, order, anew) in lines {
+        let Some((_dir, mut engine)) = engine(HOUSES[0]) else { return };
+        let mut dialogue = Dialogue::new(Language::English);
+        let number = |engine: &mut Engine, dialogue: &mut Dialogue, line: &str| {
+            let reply = dialogue.ask(engine, line).expect("there is a map");
+            match reply.outcome {
+                Outcome::Answered(answer) => answer.number,
+                _ => None,
+            }
+        };
+        let before = number(&mut engine, &mut dialogue, counted);
+        assert!(hear(&mut engine, &mut dialogue, order), "{order}");
+        let after = number(&mut engine, &mut dialogue, anew);
+        assert_eq!(before.map(|n| n - 1.0), after, "{anew}");
+        for why in ["Why can't you take Apple 1?", "Почему ты не можешь взять Яблоко-1?"]
+        {
+            let told = dialogue.ask(&engine, why).expect("there is a map").text;
+            assert!(told.contains("Book 2") || told.contains("Книга-2"), "{told}");
+        }
+    }
+}

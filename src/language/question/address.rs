@@ -9,8 +9,10 @@ use std::ops::Range;
 
 use super::conditions::{IF, NOT_SO};
 use super::convenience;
+use super::courtesy;
 use super::mark::Mark;
 use super::orders::hinges;
+use super::query::Courtesy;
 use super::several::{self, is_tag};
 use super::vocabulary;
 use crate::command::is_order;
@@ -34,6 +36,12 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
                 true => cuts.push((begin, at, end, Cut::within(&line[..from], &line[end..]))),
                 false => cuts.push((begin, until, until, Cut::Comma)),
             }
+            from = end;
+            continue;
+        }
+        // «Спасибо, а первый?»
+        if from == 0 && thanks(&line[..at]) && !thanks(line) {
+            cuts.push((from, at, end, Cut::Comma));
             from = end;
             continue;
         }
@@ -70,6 +78,10 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     }
     kept.push_str(rest);
     Cow::Owned(kept.trim().to_owned())
+}
+
+fn thanks(text: &str) -> bool {
+    courtesy::of(text) == Some(Courtesy::Thanks)
 }
 
 /// What goes with words that are left out within a line.

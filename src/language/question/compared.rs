@@ -87,6 +87,8 @@ pub enum Dimension {
     Area,
     /// How high it begins.
     Elevation,
+    /// Width, depth and height, of rooms too.
+    Sides,
 }
 
 /// How a number is meant: «не меньше трёх», "more than three".

@@ -175,7 +175,11 @@ impl Rule<'_, '_> {
                 }
                 (thing, String::new())
             }
-            Query::Size { of, .. } | Query::Free(of) | Query::Sees(of) | Query::Describe(of) => {
+            Query::Size { of, .. }
+            | Query::Free(of)
+            | Query::Sees(of)
+            | Query::Takes(of)
+            | Query::Describe(of) => {
                 (self.noun(of), pick("остальное измерено", "the rest is measured"))
             }
             Query::Distance { from, to }

@@ -76,6 +76,8 @@ pub(super) fn settle(sentence: &Sentence<'_>, query: &mut Query) {
 pub(super) fn truth(sentence: &Sentence<'_>, answer: &Answer) -> Option<bool> {
     let yes = said_to_be(answer.said)?;
     match (&answer.query, denials(sentence)) {
+        // How big something is is neither so nor not.
+        (Query::Size { .. }, _) => None,
         (Query::Several(_), 0) => answer.so,
         (_, 0) => Some(yes),
         (Query::Holds { denial, .. } | Query::Exists { denial, .. }, 1) => match denial {

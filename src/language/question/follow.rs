@@ -5,12 +5,12 @@ use super::bare::{
     by_how_much, compared_otherwise, room_alone, where_alone, where_such, which_alone, which_of_all,
 };
 use super::focus::without_article;
-use super::grammar::{Item, Sentence};
+use super::grammar::{Item, Phrase, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Denial;
 use super::{
     Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
-    several,
+    several, vocabulary,
 };
 use crate::map::Entity;
 use crate::sets::{Set, set};
@@ -53,7 +53,10 @@ impl Asker<'_> {
         // «А на том, что в гостиной?» points.
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        if let Some(query) = self.another_pointed(&sentence, last, memory) {
+        if let Some(query) = self
+            .another_pointed(&sentence, last, memory)
+            .or_else(|| counted_anew(&sentence, last, memory))
+        {
             return Some(query);
         }
         if sentence.language == Language::Russian
@@ -567,8 +570,34 @@ fn is_place(place: &Restriction) -> bool {
 
 /// «А теперь?», "And now?": the last question, of the map as it has become.
 fn asks_anew(key: &str) -> bool {
-    static NOW: Set = Set::named("AndNow");
-    NOW.contains(&key.trim_end_matches(['?', ' ']))
+    let rest = GOING_ON.iter().find_map(|begin| key.strip_prefix(begin)).unwrap_or(key);
+    let words = word_keys(rest);
+    vocabulary::taken_by(Mark::Now, &words).is_some_and(|taken| taken == words.len())
+}
+
+/// «Сколько их там теперь?», "How many are there now?": what was asked for, counted as it has become. Whither something
+/// was taken since may be "there" as well.
+fn counted_anew(sentence: &Sentence<'_>, last: &Query, memory: &Memory) -> Option<Query> {
+    let keys = &sentence.keys;
+    let now = (0..keys.len()).any(|n| vocabulary::taken_by(Mark::Now, &keys[n..]).is_some());
+    let they = |phrase: &Phrase| phrase.pronoun == Some(Pronoun::They);
+    let mut counts = false;
+    let small = sentence.items().iter().all(|item| match item {
+        Item::Mark(mark) => {
+            counts |= *mark == Mark::HowMany;
+            let idle =
+                [Mark::HowMany, Mark::And, Mark::Be, Mark::Exists, Mark::Filler, Mark::There];
+            idle.contains(mark)
+        }
+        Item::Noun(phrase) => they(phrase) || phrase.person == Some(Mark::There),
+        Item::Place { rel: Rel::From | Rel::Of, nouns, .. } => nouns.iter().all(they),
+        _ => false,
+    });
+    let (Query::Count(noun) | Query::Find(noun)) = last else { return None };
+    let asked = now && counts && small && memory.told_place.is_none();
+    let places = &noun.restrictions;
+    let placed = noun.best.is_none() && !places.is_empty() && places.iter().all(is_place);
+    (asked && placed).then(|| Query::Count(Noun { plural: true, ..noun.clone() }))
 }
 
 /// What was meant in place of what was heard: "No, I meant the bed", «Нет, я имел в виду кровать».

@@ -75,6 +75,8 @@ pub(super) enum Mark {
     Can,
     /// «держишь», "holding"
     Hold,
+    /// «взять в руку», "take in hand"
+    Take,
     You,
     Me,
     Not,
@@ -164,6 +166,8 @@ pub(super) enum Mark {
     Listed,
     /// «всего», "altogether": asks for the sum.
     Total,
+    /// «теперь», "now": asks anew what was asked before.
+    Now,
     /// «во всём доме», "in the whole house": wherever it is.
     Everywhere,
     /// «спасибо»: nothing but polite, and what may stand beside it.

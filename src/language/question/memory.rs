@@ -285,10 +285,16 @@ impl Memory {
 
     /// Notes several things, none of which is more spoken of than the others.
     pub(super) fn list(&mut self, things: &[Thing]) {
-        match things {
+        let mut each: Vec<Thing> = Vec::new();
+        for thing in things {
+            if !each.contains(thing) {
+                each.push(*thing);
+            }
+        }
+        match &each[..] {
             [] => {}
             [only] => self.mention(&[*only]),
-            _ => {
+            things => {
                 self.mention(things);
                 if let Some(exchange) = self.exchanges.first_mut() {
                     *exchange = Exchange::list(things);
@@ -338,7 +344,7 @@ pub(super) struct Exchange {
 }
 
 /// Whether what is found is where things are, and they are what is spoken of.
-fn is_of_whereabouts(query: &Query) -> bool {
+pub(super) fn is_of_whereabouts(query: &Query) -> bool {
     match query {
         Query::Anchor { .. } | Query::RoomOf(_) => true,
         Query::Several(all) => all.iter().all(is_of_whereabouts),

@@ -53,6 +53,15 @@ impl Asker<'_> {
             things.len() > 1 && things.iter().any(fits)
         };
         let mut named = vec![memory.last.clone()];
+        // "What are they on? – The table and the shelf. – Which of these is the biggest?": these are what it was asked of.
+        if let Some(things) = knowledge.asked_whereabouts() {
+            let shown = (0..sentence.keys.len())
+                .any(|n| vocabulary::taken_by(Mark::These, &sentence.keys[n..]).is_some());
+            if !shown && agree(things) && agree(&memory.last) {
+                return None;
+            }
+            named.insert(0, things.to_vec());
+        }
         // "Is the bed bigger than the sofa? Which is bigger?"
         named.extend(memory.exchanges.first().map(|exchange| exchange.compared().to_vec()));
         if of.is_some() {

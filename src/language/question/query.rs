@@ -237,6 +237,8 @@ pub enum Query {
     Sureness,
     /// Whether one of such things is in the robot's view.
     Sees(Noun),
+    /// Whether the robot can take one into its hand.
+    Takes(Noun),
     WhatDoYouHold,
     Describe(Noun),
     /// What was read by the grammar files and has been answered: the form that it took, and the rule that ran.
@@ -372,6 +374,7 @@ impl Query {
             | Self::LastSeen(noun)
             | Self::Before(noun)
             | Self::Sees(noun)
+            | Self::Takes(noun)
             | Self::Serving { of: noun, .. }
             | Self::Purpose(noun)
             | Self::Describe(noun) => noun.each(act),
@@ -502,6 +505,7 @@ impl Query {
             Self::Unseen => "unseen",
             Self::Sureness => "sureness",
             Self::Sees(_) => "sees",
+            Self::Takes(_) => "takes",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",
             Self::Noted { .. } => "fact",

@@ -436,7 +436,9 @@ pub(super) fn goes_on(before: &str, part: &str) -> bool {
         }),
         // "which" and «где» behind a word that points tell which one is meant.
         Some("что" | "which" | "that" | "где" | "where") => {
-            told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
+            // «Устал я что-то, где …?»: a particle points at nothing.
+            let particle = before.trim_end_matches([',', ' ']).ends_with("-то");
+            !particle && told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
         }
         Some(first) => first.starts_with("котор") && !told.is_empty(),
         None => false,

@@ -428,7 +428,7 @@ impl Asker<'_> {
         if !named.is_empty() {
             // Of two that were named neither is "it".
             memory.list(&named);
-            memory.is_plural = named.len() > 1 || nouns.iter().any(|noun| noun.plural);
+            memory.is_plural = memory.last.len() > 1 || nouns.iter().any(|noun| noun.plural);
         } else if several.len() > 1 {
             // None of them is "it", and of one that was meant there are no others; several may be "they".
             match nouns.iter().any(|noun| noun.plural) {

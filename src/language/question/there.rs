@@ -116,7 +116,8 @@ impl Knowledge<'_> {
         let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
         let told = placed && self.memory.last.contains(&latest) || !bears(latest);
         let Some(id) = latest.replica().filter(|_| told) else { return Some(latest) };
-        self.place_of(Thing::Entity(Entity::Replica(id))).or(Some(latest))
+        // «Возьми книгу. Сколько их там?»: nothing is in what is carried itself.
+        self.place_of(Thing::Entity(Entity::Replica(id))).or(Some(latest).filter(|_| bears(latest)))
     }
 
     /// «Где тарелки? Сколько там стульев?»: what stands on the floor is not where they lie, but in the rooms of that.

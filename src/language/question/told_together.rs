@@ -8,7 +8,7 @@ use super::grammar::are_shown;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId};
 use super::mark::{Mark, Pronoun};
-use super::memory::Exchange;
+use super::memory::{Exchange, is_of_whereabouts};
 use super::query::{Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Asker, Memory, vocabulary};
 use crate::map::Entity;
@@ -366,6 +366,13 @@ impl Knowledge<'_> {
         // All things are outside of what has no inside, which nobody asks.
         let otherwise = if rel == Some(Rel::Outside) { &[][..] } else { last };
         told.find(|things| fit(things)).unwrap_or(otherwise).to_vec()
+    }
+
+    /// The things of which it was asked where they are, where several places were told.
+    pub(super) fn asked_whereabouts(&self) -> Option<&[Thing]> {
+        let query = self.memory.query.as_ref().filter(|query| is_of_whereabouts(query));
+        let things = query.and(self.memory.exchanges.first())?.members();
+        (things.len() > 1 && things != self.memory.last).then_some(things)
     }
 
     /// What the rooms have that were told last.

@@ -26,13 +26,13 @@ macro_rules! marks {
 const MARKS: &[Mark] = marks![
     Where What Anything Kinds Hang Opens Whither How Move As Which HowMany Count Side HowFar HowLong
     HowGet When Why WhyNot Who Exists Be Have Lead Parts MadeOf Describe List See LastSeen Last
-    Before Free Sit LieDown PutDown Can Hold You Me Not Avoiding Unopened MustOpen Must Cannot
+    Before Free Sit LieDown PutDown Can Hold Take You Me Not Avoiding Unopened MustOpen Must Cannot
     Differ Alike Without Directly OccupiedBy Took Moved OnlyOne And Or ThanTo Than All Each Except
-    Other FacingIt Help Did Changed Unseen Sureness Heading Same There One A The These Listed Total
+    Other FacingIt Help Did Changed Unseen Sureness Heading Same There One A The These Listed Total Now
     Everywhere BesidePolite Sound Interjection Limits WhoIsRight Called Hesitates Particle Corrects
     But Filler;
     Rank: 1 2 3 4 5;
-    HowBig(Dimension): All Elevation Height Width Length Area;
+    HowBig(Dimension): All Elevation Height Width Length Area Sides;
     Link(Rel): In On Under Above NextTo Near LeftOf RightOf Behind InFrontOf Between Facing Middle
         Leaning Has Outside From To Through At Of;
     Nearer(Closeness): Nearer Farther;
@@ -157,6 +157,7 @@ fn is_bound(mark: Mark) -> bool {
         Mark::These
             | Mark::Listed
             | Mark::Total
+            | Mark::Now
             | Mark::Everywhere
             | Mark::Polite(_)
             | Mark::BesidePolite

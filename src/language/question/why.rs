@@ -18,6 +18,9 @@ const SAID: usize = 4;
 
 impl Knowledge<'_> {
     pub(super) fn why(&self, negated: bool, about: Option<&Query>) -> Result<Draft, Doubt> {
+        if let Some(Query::Takes(noun)) = about {
+            return self.may_take(noun);
+        }
         let asked = about.or(self.memory.query.as_ref()).filter(|_| !negated);
         if let Some(draft) = asked.and_then(|query| self.why_serving(query)) {
             return Ok(draft);
@@ -35,8 +38,14 @@ impl Knowledge<'_> {
                 if negated && leaves {
                     return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
                 }
-                if negated && is_otherwise(query, &answer) {
+                if negated && (is_otherwise(query, &answer) || self.is_though_denied(query))
+                    || !negated && is_supposed(query, &answer)
+                {
                     return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
+                }
+                if matches!(query, Query::Holds { .. }) && answer.said == Said::Unknown {
+                    let text = self.within_a_sentence(&answer.text, &answer.topic);
+                    return Ok(Draft::plain(Said::Unknown, text));
                 }
                 if answer.facts.is_empty() {
                     let way = matches!(query, Query::CanReach { .. });
@@ -207,6 +216,19 @@ impl Knowledge<'_> {
             }
         };
         Draft::plain(Said::Found, text)
+    }
+
+    /// Whether values that are denied of things are theirs: "Why isn't the door open?", where it is.
+    fn is_though_denied(&self, query: &Query) -> bool {
+        let Query::Holds { subject, claims, .. } = query else { return false };
+        let things = self.find(subject, false).unwrap_or_default();
+        let has = |claim: &Claim| match claim {
+            Claim::Value(filter) => {
+                filter.negated && things.iter().all(|thing| self.has_value(*thing, filter.value))
+            }
+            _ => false,
+        };
+        !things.is_empty() && claims.iter().all(has)
     }
 
     /// The measurements that a fact comes from, or what it lacks.
@@ -588,6 +610,13 @@ fn is_otherwise(query: &Query, answer: &Answer) -> bool {
         && !claims.iter().any(denies)
         && !answer.facts.is_empty()
         && answer.facts.iter().all(|fact| fact.holds)
+}
+
+/// Whether a value that somebody takes for a thing's is not: "Why is the door closed?", where it is open.
+fn is_supposed(query: &Query, answer: &Answer) -> bool {
+    let Query::Holds { claims, .. } = query else { return false };
+    let of_values = claims.iter().all(|claim| matches!(claim, Claim::Value(_)));
+    of_values && answer.said == Said::No && answer.facts.iter().all(|fact| fact.holds)
 }
 
 /// The preposition that tells a relation.

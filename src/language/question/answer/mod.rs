@@ -14,6 +14,7 @@ mod senses;
 mod serving;
 mod size;
 mod state;
+mod taking;
 mod together;
 mod unsure;
 mod usable;
@@ -165,6 +166,7 @@ impl Knowledge<'_> {
             Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),
             Query::Sees(noun) => self.sees(noun)?,
+            Query::Takes(noun) => self.may_take(noun)?,
             Query::Done => self.done(),
             Query::Changed => self.changed(),
             Query::Unseen => self.unseen(),

@@ -34,7 +34,7 @@ impl Knowledge<'_> {
             _ => return None,
         };
         Some(match dimension {
-            Dimension::All => self.sizes(thing)?,
+            Dimension::All | Dimension::Sides => self.sizes(thing)?,
             Dimension::Height => length(extent.height, self.language),
             Dimension::Width => length(extent.width, self.language),
             Dimension::Length => length(extent.depth, self.language),
@@ -80,7 +80,7 @@ impl Knowledge<'_> {
                     };
                     (text, e.base)
                 }
-                Dimension::All => {
+                Dimension::All | Dimension::Sides => {
                     let sizes = self.sizes(thing).unwrap_or_default();
                     let text = match self.is_russian() {
                         true => format!(

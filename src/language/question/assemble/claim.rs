@@ -51,6 +51,9 @@ impl Frame<'_, '_> {
         // «Почему нельзя попасть в лабораторию?»
         let goes = self.has(Mark::Move) || self.has(Mark::Lead) || self.says_out();
         let moves = self.has(Mark::Can) && goes;
+        if let (true, [only]) = (self.has(Mark::Take), &self.nouns[..]) {
+            return Some(Query::Takes(self.with_rest(only.noun.clone(), &[])));
+        }
         // "Why can't you get through the kitchen door?" asks whether it is open.
         let open = self.lexicon.values.meaning("открытый");
         if let (true, [], [Spot { rel: Rel::Through, nouns, .. }], Some(open)) =

@@ -106,6 +106,7 @@ pub(super) fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
             | Q::SameAll { .. }
             | Q::SameSize { .. }
             | Q::Sees(_)
+            | Q::Takes(_)
     ) && !unasked;
     // "Why is it smaller?" asks of more than the last answer.
     if matches!(query, Q::Why { about: None, .. }) {
