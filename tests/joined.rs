@@ -442,7 +442,9 @@ fn names(engine: &Engine) -> Vec<String> {
     let of_things = world.replicas.values().flat_map(|r| [r.name.clone(), r.name_en.clone()]);
     let of_rooms = world.areas.values().flat_map(|a| [a.name.clone(), a.name_en.clone()]);
     let of_doors = world.doors.values().flat_map(|d| [d.name.clone(), d.name_en.clone()]);
-    of_things.chain(of_rooms).chain(of_doors).collect()
+    let of_places = world.places.values().flat_map(|p| [p.name.clone(), p.name_en.clone()]);
+    let of_storeys = world.maps.values().flat_map(|m| [m.name.clone(), m.name_en.clone()]);
+    of_things.chain(of_rooms).chain(of_doors).chain(of_places).chain(of_storeys).collect()
 }
 
 /// The first word of a text in the letters of another language that neither a name nor the question has.

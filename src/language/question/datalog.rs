@@ -261,6 +261,11 @@ impl Rule<'_, '_> {
 
     /// A term for a description: a constant for a name, else a variable with its atoms.
     fn noun(&mut self, noun: &Noun) -> String {
+        // «Спальня с компьютером», where the one that is called so has none: another of its kind was found.
+        let is_named = |t: &Thing| noun.head.named.iter().any(|named| Thing::Entity(*named) == *t);
+        let found = || self.knowledge.find(noun, true).unwrap_or_default();
+        let of_kind = noun.of_kind().filter(|_| !found().iter().all(is_named));
+        let noun = of_kind.as_ref().unwrap_or(noun);
         let named = match (&noun.head.things, &noun.head.named[..]) {
             (Some(things), _) => match things[..] {
                 [only] => Some(only),
