@@ -96,6 +96,7 @@ mod scenes;
 mod scope;
 mod several_places;
 mod shut_holders;
+mod spoken_orders;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 mod states;

@@ -380,19 +380,15 @@ impl Hearing<'_, '_> {
         if let Some(first) = &conditional.first {
             self.hear_one(first, false)?;
             if self.has_failed() {
-                return match &conditional.then {
-                    Some(then) => self.not_begun(then),
-                    None => Ok(()),
-                };
+                let parts = [&conditional.then, &conditional.otherwise, &conditional.also];
+                return parts.into_iter().flatten().try_for_each(|part| self.not_begun(part));
             }
         }
         let (holds, answer) = match self.engine.holds(conditional, &mut self.dialogue.memory)? {
             Ok(found) => found,
-            Err(mut unanswered) => {
-                if let Some(text) = conditional.unwatched() {
-                    text.clone_into(&mut unanswered.text);
-                }
-                return self.reply(Reply::unanswered(unanswered));
+            Err(unanswered) => {
+                self.condition_unknown(conditional, unanswered)?;
+                return conditional.also.iter().try_for_each(|also| self.not_begun(also));
             }
         };
         let (text, language) = (answer.text.clone(), answer.language);
@@ -409,6 +405,27 @@ impl Hearing<'_, '_> {
             Some(also) => self.hear(also),
             None => Ok(()),
         }
+    }
+
+    /// "If there is a banana, bring it, otherwise bring an apple": that the map has none is no proof that there is none, so
+    /// that the other order waits for a yes.
+    fn condition_unknown(
+        &mut self,
+        conditional: &Conditional,
+        unanswered: Unanswered,
+    ) -> Result<(), Error> {
+        let lacks = unanswered.doubt.kind() == "unknown" && unanswered.names.is_empty();
+        let lacks = lacks && !conditional.waits && !conditional.denies();
+        let Some(order) = conditional.otherwise.clone().filter(|_| lacks) else {
+            return self.reply(Reply::unanswered(unanswered));
+        };
+        let (told, language) = (unanswered.text, unanswered.language);
+        let text = match language {
+            Language::Russian => format!("{told} Выполнить: «{order}»?"),
+            Language::English => format!("{told} Shall I do this: \"{order}\"?"),
+        };
+        self.dialogue.offered = Some(order.clone());
+        self.put(Outcome::Offered { order }, &text, language)
     }
 
     fn hear_one(&mut self, line: &str, awaited: bool) -> Result<(), Error> {

@@ -90,12 +90,9 @@ impl State {
             Some(first) => self.understood(first, memory)?,
             None => Vec::new(),
         };
-        let holds = self.holds(conditional, memory)?.map_err(|mut unanswered| {
-            if let Some(text) = conditional.unwatched() {
-                text.clone_into(&mut unanswered.text);
-            }
-            Error::from(Misheard::NoneSuch(Box::new(unanswered)))
-        })?;
+        let holds = self
+            .holds(conditional, memory)?
+            .map_err(|unanswered| Error::from(Misheard::NoneSuch(Box::new(unanswered))))?;
         let order = if holds.0 { &conditional.then } else { &conditional.otherwise };
         match order {
             Some(order) => commands.extend(self.understand_in(order, memory)?),
@@ -128,10 +125,11 @@ impl State {
             }
         }
         let answered = self.ask(&conditional.question, memory)?;
-        Ok(answered.and_then(|answer| match answer.is_so() {
+        let held = answered.and_then(|answer| match answer.is_so() {
             Some(holds) => Ok((holds, answer)),
             None => Err(Unanswered::undecided(&conditional.question, answer)),
-        }))
+        });
+        Ok(held.map_err(|unanswered| conditional.unknown(unanswered)))
     }
 
     fn understood(

@@ -492,29 +492,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::SwitchOn, toward) => Command::SwitchOn(Thing { toward, ..what }),
             (Verb::SwitchOff, toward) => Command::SwitchOff(Thing { toward, ..what }),
             (Verb::Find, toward) => Command::Find(Thing { toward, ..what }),
-            (
-                Verb::GoTo
-                | Verb::Move
-                | Verb::Get
-                | Verb::SetDown
-                | Verb::Charge
-                | Verb::Tidy
-                | Verb::Clean
-                | Verb::CallOperator
-                | Verb::CallLift
-                | Verb::Report
-                | Verb::Return
-                | Verb::Leave
-                | Verb::Wait
-                | Verb::Face
-                | Verb::Visit
-                | Verb::Unable
-                | Verb::Stop
-                | Verb::Needless,
-                _,
-            ) => {
-                return Err(self.incomplete(words, question(verb)));
-            }
+            _ => return Err(self.incomplete(words, question(verb))),
         })
     }
 
@@ -536,6 +514,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             said: Spans::default(),
         };
         let mut latest_is_to = None;
+        let mut others: Vec<T> = Vec::new();
         let mut seconds: Vec<usize> = Vec::new();
         for (n, argument) in arguments.iter().enumerate() {
             let Some(link) = argument.link else {
@@ -545,6 +524,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             if matches!(argument.reference, Reference::Me) {
                 roles.to_me = true;
                 continue;
+            }
+            // "Go to them": to each, one after the other.
+            if verb == Verb::GoTo
+                && link.relation == Relation::At
+                && matches!(argument.reference, Reference::Them)
+                && let [before @ .., _] = &self.last[..]
+            {
+                others.extend_from_slice(before);
             }
             let anchor = match self.resolve(argument, cases_after(link)) {
                 // «Выйди из комнаты»: whichever it is, the robot is in it.
@@ -665,6 +652,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             let objects: Vec<T> = objects.into_iter().filter(new).collect();
             roles.objects.extend(objects);
         }
+        roles.objects.extend(others);
         Ok(roles)
     }
 

@@ -30,11 +30,9 @@ type Rewriting = fn(&Said) -> Option<String>;
 /// The text as plain orders, and the words that were left out because they are not meant.
 pub(super) fn plain(text: &str, lines: &Paraphrases) -> (String, Vec<String>) {
     use Loss::{NotMeant, Small};
-    /// No sentence has more of one construction.
-    const MOST: usize = 4;
-    const REWRITINGS: [(Rewriting, Loss); 11] = [
-        (time::told_when, Small),
-        (time::in_time, Small),
+    /// Before what a clause leaves out is said again: each clause stands where its time is.
+    const IN_TIME: &[(Rewriting, Loss)] = &[(time::told_when, Small), (time::in_time, Small)];
+    const CLAUSES: &[(Rewriting, Loss)] = &[
         (spared, NotMeant),
         (excluded, NotMeant),
         // Before «а Книгу-4 оставь» gets its verb first.
@@ -48,19 +46,29 @@ pub(super) fn plain(text: &str, lines: &Paraphrases) -> (String, Vec<String>) {
     ];
     let mut text = text.to_owned();
     let mut not_meant = Vec::new();
-    for stage in [Stage::InTime, Stage::Early] {
+    for (stage, rewritings) in
+        [(Stage::InTime, IN_TIME), (Stage::Early, CLAUSES), (Stage::Late, &[])]
+    {
         if let Some((plain, left_out)) = lines.ordered(&text, stage, senses) {
             text = plain;
             not_meant.extend(left_out);
         }
+        text = rewritten(text, rewritings, &mut not_meant);
     }
+    (text, not_meant)
+}
+
+/// A text by each rewriting, as long as that changes something.
+fn rewritten(text: String, all: &[(Rewriting, Loss)], not_meant: &mut Vec<String>) -> String {
+    /// No sentence has more of one construction.
+    const MOST: usize = 4;
     let mut said = Said::new(text);
-    for (rewrite, loss) in REWRITINGS {
+    for (rewrite, loss) in all {
         for _ in 0..MOST {
             match rewrite(&said) {
                 Some(text) if text != said.text => {
                     let after = Said::new(text);
-                    if loss == Loss::NotMeant {
+                    if *loss == Loss::NotMeant {
                         not_meant.extend(lost(&said.keys, &after.keys));
                     }
                     said = after;
@@ -69,13 +77,7 @@ pub(super) fn plain(text: &str, lines: &Paraphrases) -> (String, Vec<String>) {
             }
         }
     }
-    match lines.ordered(&said.text, Stage::Late, senses) {
-        Some((text, left_out)) => {
-            not_meant.extend(left_out);
-            (text, not_meant)
-        }
-        None => (said.text, not_meant),
-    }
+    said.text
 }
 
 /// «Принеси чашки, а в гостиной не надо»: all but those. Whether what is carried is not to go there or not to come from

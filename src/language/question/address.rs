@@ -7,13 +7,14 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::conditions::{IF, NOT_SO};
 use super::convenience;
 use super::mark::Mark;
 use super::orders::hinges;
 use super::several::{self, is_tag};
 use super::vocabulary;
 use crate::command::is_order;
-use crate::words::{is_first_person, word_keys, word_ranges};
+use crate::words::{is_first_person, phrase_at, word_keys, word_ranges};
 
 /// A line without the words by which somebody is spoken to, and without particles of speech.
 #[must_use]
@@ -25,7 +26,8 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
         let end = at + mark;
         let keys = word_keys(&line[from..at]);
-        if let Some(polite) = suiting(&line[from..at], &keys) {
+        let polite = suiting(&line[from..at], &keys);
+        if let Some(polite) = polite.filter(|_| !is_hinge(line, from, end)) {
             let (begin, until) = (from + polite.start, from + polite.end);
             match begin == from && until == at {
                 true => cuts.push((begin, at, end, Cut::within(&line[..from], &line[end..]))),
@@ -84,6 +86,16 @@ impl Cut {
         let joined = joined && !orders_again;
         if joined { Self::Both } else { Self::Comma }
     }
+}
+
+/// "If you have time, …, otherwise …", "if it is open, close it, and if you have time, …": whether what elsewhere only is
+/// polite divides what is ordered from what is ordered otherwise, or anyway.
+fn is_hinge(line: &str, from: usize, end: usize) -> bool {
+    let keys = word_keys(&line[end..]);
+    let otherwise =
+        (0..keys.len()).any(|n| NOT_SO.iter().any(|p| phrase_at(&keys, n, p).is_some()));
+    let begins = word_keys(&line[..from]).first().is_some_and(|key| IF.contains(&key.as_str()));
+    otherwise || begins && is_order(&line[end..])
 }
 
 /// The bytes of a part of a line that ask only whether something suits who is spoken to: all of it, its end, or what stands

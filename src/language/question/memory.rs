@@ -241,6 +241,7 @@ impl Memory {
     /// Notes what a command is done to, and whither it goes: "there" afterwards, and «на нём» of what may bear things.
     pub fn order(&mut self, things: &[Thing], places: &[Thing]) {
         self.mention(things);
+        self.is_plural = things.len() > 1;
         let Some(place) = places.last() else { return };
         self.told_place = Some(*place);
         let own = places.iter().rev().filter(|place| !things.contains(place));

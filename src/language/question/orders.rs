@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::conditions::{self, Another, IF, NOT_SO, SO, WHEN};
 use super::query::Thing;
 use super::several::sentences;
-use super::{Asker, Memory, cut_off, opening};
+use super::{Asker, Memory, Unanswered, cut_off, opening};
 use crate::command::{self, is_command, is_order, is_order_by};
 use crate::paraphrase::Paraphrases;
 use crate::words::{Case, Language, is_first_person, phrase_at, word_keys, word_ranges};
@@ -179,8 +179,12 @@ fn asked(claim: &str) -> Option<String> {
         true => "",
         false => &claim[words[range.start].start..words[range.end - 1].end],
     };
-    let is =
-        keys.iter().position(|key| matches!(key.as_str(), "is" | "are" | "s" | "isn" | "aren"))?;
+    let is_be = |key: &String| matches!(key.as_str(), "is" | "are" | "s" | "isn" | "aren");
+    let Some(is) = keys.iter().position(is_be) else {
+        // "the kitchen has a fridge"
+        let has = keys.iter().position(|key| key == "has").filter(|has| *has > 0)?;
+        return Some(format!("does {} have {}?", said(0..has), said(has + 1..words.len())));
+    };
     let denies = matches!(keys[is].as_str(), "isn" | "aren") && keys.get(is + 1)? == "t";
     let (what, state) = (said(0..is), said(is + 1 + usize::from(denies)..words.len()));
     let be = match keys[is].as_str() {
@@ -477,8 +481,8 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         Language::Russian => format!("{claim}?"),
         Language::English => match asked(&claim) {
             Some(question) => question,
-            // "when the door opens"
-            None if waits => format!("{claim}?"),
+            // "when the door opens"; "if you have time, …, otherwise …" is for who is asked to tell.
+            None if waits || length > 0 => format!("{claim}?"),
             None => return None,
         },
     };
@@ -514,15 +518,31 @@ impl Conditional {
         )
     }
 
-    /// What is told where the condition is not understood: an event, mostly.
+    /// "If there is no banana": whether it is asked for what is not so.
     #[must_use]
-    pub fn unwatched(&self) -> Option<&'static str> {
-        self.waits.then(|| {
-            Language::of(&self.question).pick(
-                "Ждать событий я не умею: скажите, когда это случится.",
-                "I do not wait for events: tell me when it has happened.",
-            )
-        })
+    pub fn denies(&self) -> bool {
+        const NOT: [&str; 6] = ["no", "not", "t", "nobody", "нет", "не"];
+        word_keys(&self.question).iter().any(|key| NOT.contains(&key.as_str()))
+    }
+
+    /// What is told where it is not known whether the condition holds: of an event, mostly.
+    #[must_use]
+    pub fn unknown(&self, mut unanswered: Unanswered) -> Unanswered {
+        let language = Language::of(&self.question);
+        let event = language.pick(
+            "Ждать событий я не умею: скажите, когда это случится.",
+            "I do not wait for events: tell me when it has happened.",
+        );
+        if self.waits {
+            event.clone_into(&mut unanswered.text);
+        } else if unanswered.doubt.kind() == "not_understood" {
+            let head = language.pick(
+                "Так ли это, мне не узнать; скажите, что делать.",
+                "I cannot find out whether that is so; say what is to be done.",
+            );
+            unanswered.text = format!("{head} {}", unanswered.text);
+        }
+        unanswered
     }
 }
 
@@ -568,6 +588,11 @@ fn order_and_question(text: &str) -> Option<(&str, String)> {
             continue;
         };
         let asked = at + taken;
+        // "Check every room" sends the robot round.
+        let told = command::gathered(&text[words[at].start..]);
+        if matches!(command::clauses(&told).first(), Some((0, command::Sort::Go))) {
+            continue;
+        }
         // "Look in the fridge" goes there.
         let goes = matches!(keys[at].as_str(), "look") && command::link_at(&keys, asked);
         if goes || asked >= words.len() || THAT.iter().any(|w| phrase_at(&keys, asked, w).is_some())

@@ -446,8 +446,8 @@ impl Resolver<'_, '_> {
         for spot in facing {
             self.face(spot, stands, edits)?;
         }
-        let there = self.area_of_there(clause, told);
-        if let (Some(_), Some(words)) = (there, self.words_for_there(clause)) {
+        let there = self.places_there(clause, told)?;
+        if let (Some(_), Some(words)) = (&there, self.words_for_there(clause)) {
             edits.push(Edit::deletion(&self.bytes(&words)));
         }
         // "Put the book there": not to the book.
@@ -525,7 +525,7 @@ impl Resolver<'_, '_> {
                     .map(|p| self.left_out(sort, p, &of_except))
                     .collect(),
                 place: told.place,
-                there,
+                there: there.clone(),
                 gone_to: told.gone_to,
                 opened: told.opened.filter(|_| sort == Sort::Carry),
                 like: objects[..n]
@@ -577,6 +577,7 @@ impl Resolver<'_, '_> {
             self.left_standing(&own, edits);
         }
         told.place = whither.or(told.place);
+        told.has_named |= whither.is_some() || !told.things.is_empty();
         if matches!(sort, Sort::Carry | Sort::Put) {
             told.carried_to =
                 whither.and_then(|place| self.knowledge.area_of(place)).or(told.carried_to);
@@ -667,6 +668,8 @@ struct Told {
     things: Vec<Thing>,
     like: Option<Head>,
     place: Option<Thing>,
+    /// Whether the sentence itself has named that, and not what was said before it.
+    has_named: bool,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,
     /// What the clause before opens, and may hold things.

@@ -28,8 +28,8 @@ pub(super) struct More {
     pub(super) except: Vec<Noun>,
     /// What was spoken of before the clause: «возьми с него».
     pub(super) place: Option<Thing>,
-    /// The room of which it is said to be there.
-    pub(super) there: Option<AreaId>,
+    /// The places of which it is said to be there.
+    pub(super) there: Option<Vec<Thing>>,
     /// The room into which the sentence sends the robot before.
     pub(super) gone_to: Option<AreaId>,
     /// What was opened for it: «открой холодильник и достань молоко».
@@ -142,6 +142,10 @@ impl Resolver<'_, '_> {
             let anchors = vec![Noun::of(vec![opened])];
             within.push(Restriction { rel: Rel::In, anchors, negated: false });
         }
+        if let Some(places) = more.there {
+            let there = Noun { plural: places.len() > 1, ..Noun::of(places) };
+            within.push(Restriction { rel: Rel::There, anchors: vec![there], negated: false });
+        }
         let told = noun_is.map(|way_out| Noun { head: way_out.head, ..noun.clone() });
         let noun = told.as_ref().unwrap_or(noun);
         let noun = &self.with_excepted_best(noun, &within);
@@ -163,9 +167,6 @@ impl Resolver<'_, '_> {
                     found = self.candidates(&told, &within).map_err(|d| (d, at.clone()))?;
                 }
             }
-        }
-        if let Some(there) = more.there {
-            found.retain(|t| self.knowledge.area_of(*t) == Some(there));
         }
         if noun.other {
             let given = |t: &Thing| {

@@ -342,8 +342,15 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
-    pub(super) fn area_of_there(&self, clause: &Clause<'_>, told: &Told) -> Option<AreaId> {
+    /// The places of which «там» says that a thing is there: «принеси оттуда» tells where it is, «принеси туда» whither.
+    ///
+    /// # Errors
+    /// Of several places none was spoken of more than the others.
+    pub(super) fn places_there(
+        &self,
+        clause: &Clause<'_>,
+        told: &Told,
+    ) -> Result<Option<Vec<Thing>>, (Doubt, Range<usize>)> {
         let says = |(_, p): &(usize, &Phrase)| matches!(p.person, Some(Mark::There));
         // «Возьми там тарелку», "bring the plate there"
         let tells_where = |phrase: &Phrase| {
@@ -352,9 +359,24 @@ impl Resolver<'_, '_> {
         };
         let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
             || clause.objects.iter().any(|(_, p)| p.person.is_some() && tells_where(p));
-        let is_said =
-            clause.objects.iter().any(says) && is_where || self.words_for_there(clause).is_some();
-        told.place.filter(|_| is_said).and_then(|t| self.knowledge.area_of(t))
+        let said = clause.objects.iter().find(|object| says(object) && is_where);
+        let words = said.map(|(_, phrase)| phrase.words.clone());
+        let (Some(words), Some(place)) =
+            (words.or_else(|| self.words_for_there(clause)), told.place)
+        else {
+            return Ok(None);
+        };
+        let places = match told.has_named {
+            true => vec![self.knowledge.bearer_there(place)],
+            false => self.knowledge.places_spoken_of(),
+        };
+        match places.is_empty() {
+            true => {
+                let word = self.sentence.said(&words).to_owned();
+                Err((Doubt::NoReferent { word }, self.bytes(&words)))
+            }
+            false => Ok(Some(places)),
+        }
     }
 
     /// "Bring the mug from there": the words, with the preposition.

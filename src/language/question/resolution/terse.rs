@@ -10,7 +10,7 @@ use crate::question::mark::{Mark, Pronoun};
 use crate::question::memory::{Exchange, Ordered};
 use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
-use crate::words::{Case, Language, NounPhrase, word_keys, word_ranges};
+use crate::words::{Case, Language, NounPhrase, Number, word_keys, word_ranges};
 
 /// What is said before an amendment.
 const BEFORE: [&str; 41] = [
@@ -250,8 +250,16 @@ impl Asker<'_> {
         let knowledge = self.knowledge(sentence.language, memory);
         let resolver = Resolver::reading(&knowledge, &sentence);
         let items = sentence.items();
-        let lone =
-            matches!(&items[..], [Item::Noun(p)] if p.noun.head.anything && p.pronoun.is_none());
+        // "The one on the side table": what it is done to, told by its place.
+        let lone = match &items[..] {
+            [Item::Noun(phrase), places @ ..] => {
+                let is_placed = |item: &Item| matches!(item, Item::Place { .. });
+                phrase.noun.head.anything
+                    && phrase.pronoun.is_none()
+                    && places.iter().all(is_placed)
+            }
+            _ => false,
+        };
         let tells = |item: &Item| match item {
             Item::Place { .. } | Item::Value(_) => true,
             Item::Noun(phrase) => phrase.noun.head.anything && phrase.pronoun.is_none(),
@@ -261,9 +269,10 @@ impl Asker<'_> {
             return None;
         }
         // What is said anew: of what it is done to, of whither.
-        let goal = items.iter().position(|item| match item {
+        let goal = items.iter().enumerate().position(|(n, item)| match item {
             Item::Place { rel, nouns, .. } => nouns.first().is_some_and(|p| {
-                resolver.is_whither(*rel, p).unwrap_or_else(|| ordered.goes_where_it_says(*rel))
+                let open = || !(lone && n == 1) && ordered.goes_where_it_says(*rel);
+                resolver.is_whither(*rel, p).unwrap_or_else(open)
             }),
             _ => false,
         });
@@ -508,6 +517,17 @@ impl Asker<'_> {
             && let Some(pair) = knowledge.last_pair().filter(|pair| pair.iter().all(fits))
         {
             return pair;
+        }
+        // "Where are the chairs? – … – Bring the pillow. Go to them": one thing is no "them", where several were told before.
+        if let ([only], true) = (&last[..], free && pronouns.contains(&Pronoun::They))
+            && !memory.is_plural
+            && knowledge.gender(*only).1 != Number::Plural
+        {
+            let told = memory.exchanges.iter().map(|e| e.things().copied().filter(fits));
+            let told = told.map(Iterator::collect::<Vec<_>>);
+            if let Some(several) = told.into_iter().find(|all| all.len() > 1) {
+                return several;
+            }
         }
         // «На складе стол и чашка. – Принеси её»: what can be carried, and is «она».
         if !pronouns.is_empty()
