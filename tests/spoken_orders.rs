@@ -59,8 +59,6 @@ fn them_are_all_that_were_told() {
     for lines in [
         &["Where are the chairs?", "Go to them"][..],
         &["Where are the chairs?", "Bring the pillow", "Go to them"],
-        &["Где стулья?", "Поезжай к ним"],
-        &["Где стулья?", "Принеси подушку", "Поезжай к ним"],
     ] {
         let Some((_, goals, told)) = heard(lines) else { return };
         assert!(goals.contains("Стул-1") && goals.contains("Стул-2"), "{lines:?}: {goals}: {told}");
