@@ -6,7 +6,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use super::without_marks;
-use crate::question::Unanswered;
+use crate::question::{Doubt, Unanswered};
 use crate::units::{InEnglish, OwnText, Source, capitalized};
 use crate::words::{Language, alternatives, word_keys, word_ranges};
 
@@ -118,7 +118,11 @@ impl Misheard {
     /// Whether all that is lacking is whither something goes.
     #[must_use]
     pub fn asks_whither(&self) -> bool {
-        matches!(self, Self::Incomplete { question, .. } if *question == WHITHER.0)
+        match self {
+            Self::Incomplete { question, .. } => *question == WHITHER.0,
+            Self::WhichOf(asked) => matches!(asked.doubt, Doubt::InOrOn { .. }),
+            _ => false,
+        }
     }
 
     /// The same in the words of who spoke: an order is put plainly before it is heard, and what was put in is not theirs.

@@ -26,6 +26,10 @@ pub enum Doubt {
         reference: String,
         candidates: Vec<Thing>,
     },
+    /// Whether something goes into what was spoken of, or onto it.
+    InOrOn {
+        place: Thing,
+    },
     /// Nothing on the map is called so.
     Unknown {
         reference: String,
@@ -78,6 +82,11 @@ impl Doubt {
         }
     }
 
+    /// Whether it is not known what was asked.
+    pub(super) fn is_unread(&self) -> bool {
+        matches!(self, Self::Unknown { .. } | Self::NotUnderstood { .. } | Self::Incomplete { .. })
+    }
+
     /// A stable word for the outcome: the three of SPEC T2, and what was not said.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -86,7 +95,7 @@ impl Doubt {
                 "not_understood"
             }
             Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
-            Self::Ambiguous { .. } => "ambiguous",
+            Self::Ambiguous { .. } | Self::InOrOn { .. } => "ambiguous",
             Self::Unknown { .. }
             | Self::NoneSuch { .. }
             | Self::TooFew { .. }

@@ -107,6 +107,10 @@ impl Knowledge<'_> {
                 true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
                 false => format!("I do not know what \"{}\" means here", tidy(word)),
             },
+            Doubt::InOrOn { place } => match self.form(*place, Case::Accusative) {
+                name if russian => format!("в {name} или на {name}?"),
+                name => format!("in {name} or on it?"),
+            },
             Doubt::Departed { things } => outlive::departed_words(things, self.language),
             Doubt::Past { moved } => match russian {
                 true => format!(

@@ -375,7 +375,7 @@ impl Asker<'_> {
                 let doubt = memory.why_nothing(doubt).quoted_from(text);
                 let before = memory.exchanges.clone();
                 // What else the question named is spoken of all the same.
-                if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {
+                if doubt.is_unread() {
                     self.hear_of(text, memory);
                 }
                 let is_deaf = memory.exchanges == before && self.pronouns(text).is_empty();

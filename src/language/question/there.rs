@@ -4,10 +4,11 @@
 
 use std::collections::BTreeSet;
 
+use super::Doubt;
 use super::focus::is_one;
 use super::knowledge::Knowledge;
 use super::memory::Exchange;
-use super::query::{Noun, Query, Rel, Restriction, Thing};
+use super::query::{Claim, Noun, Query, Rel, Restriction, Thing};
 use crate::map::Entity;
 use crate::sets::set;
 use crate::words::word_keys;
@@ -59,6 +60,47 @@ impl Knowledge<'_> {
         let bears = self.opening(thing).is_some()
             || [Rel::On, Rel::In].iter().any(|rel| self.may_be_anchor(*rel, thing));
         self.place_of(thing).filter(|_| !bears).unwrap_or(thing)
+    }
+
+    /// Whether what goes "there" goes into what may hold things, or onto it: as what was spoken of lies to it, and as was
+    /// asked. None of what holds nothing.
+    ///
+    /// # Errors
+    /// Both may be meant.
+    pub(super) fn in_or_on_there(&self, place: Thing) -> Result<Option<Rel>, Doubt> {
+        let has = |wanted| place.replica().is_some_and(|id| self.world.has_trait(id, wanted));
+        if !has("container") {
+            return Ok(None);
+        }
+        let lying = self.memory.last.iter().filter(|thing| self.place_of(**thing) == Some(place));
+        let mut said: Vec<Rel> = lying.map(|thing| self.on_or_in(*thing, place)).collect();
+        // What was asked before an order is no longer spoken of.
+        if self.memory.told_place.is_none()
+            && let Some(mut query) = self.memory.query.clone()
+        {
+            let tells = |told: &&Restriction| {
+                let is_it = |anchor| self.find(anchor, true).is_ok_and(|found| found == [place]);
+                matches!(told.rel, Rel::In | Rel::On) && told.anchors.iter().any(is_it)
+            };
+            if let Query::Holds { claims, .. } | Query::Choice { claims, .. } = &query {
+                let claimed = claims.iter().filter_map(|claim| match claim {
+                    Claim::Related(told) => Some(told),
+                    _ => None,
+                });
+                said.extend(claimed.filter(tells).map(|told| told.rel));
+            }
+            query.each_noun(&mut |noun| {
+                said.extend(noun.restrictions.iter().filter(tells).map(|told| told.rel));
+            });
+        }
+        let bears = ["support", "seat", "bed"].into_iter().any(has);
+        // Where a mug is, is not in it.
+        let carried = has("portable") && self.asked_where();
+        match said.first() {
+            Some(rel) if said.iter().all(|other| other == rel) => Ok(Some(*rel)),
+            None if !bears && !carried => Ok(Some(Rel::In)),
+            _ => Err(Doubt::InOrOn { place }),
+        }
     }
 
     /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.

@@ -15,6 +15,7 @@ use crate::words::{Language, enumerate, russian};
 impl Knowledge<'_> {
     pub(super) fn say_found(&self, noun: &Noun) -> Result<Draft, Doubt> {
         let mut found = self.find(noun, false)?;
+        self.one_of_each_lift(noun, &mut found);
         // "Name three things": as many as are asked for.
         if let (Some(count), None) = (noun.count, &noun.best) {
             found.truncate(usize::try_from(count).unwrap_or(usize::MAX));

@@ -427,6 +427,7 @@ impl Resolver<'_, '_> {
         own = others;
         let goal = self.destination(sort, &own, !objects.is_empty());
         let goal = goal.filter(|goal| !self.tells_of_fixed(sort, own[*goal], objects));
+        let upon = goal.map(|goal| own[goal].rel);
         let whither = match goal {
             Some(goal) => {
                 let (spot, room) = (own.remove(goal), told.carried_to.or(told.gone_to));
@@ -469,10 +470,11 @@ impl Resolver<'_, '_> {
             if let Some(Mark::There) = phrase.person {
                 if there.is_some() {
                     edits.push(Edit::deletion(&self.bytes(&phrase.words)));
-                } else if goal.is_none() && matches!(sort, Sort::Go | Sort::Put | Sort::Carry) {
-                    let borne = |thing| self.knowledge.bearer_there(thing);
-                    let place = if sort == Sort::Go { spoken_of } else { spoken_of.map(borne) };
-                    edits.extend(place.map(|thing| self.to_there(thing, phrase)));
+                } else if goal.is_none()
+                    && matches!(sort, Sort::Go | Sort::Put | Sort::Carry)
+                    && let Some(thing) = spoken_of
+                {
+                    edits.extend(self.to_there(thing, sort, phrase, clause.items, told.upon)?);
                 }
                 continue;
             }
@@ -578,6 +580,7 @@ impl Resolver<'_, '_> {
         }
         told.place = whither.or(told.place);
         told.has_named |= whither.is_some() || !told.things.is_empty();
+        told.upon = upon.filter(|rel| whither.is_some() && matches!(rel, Rel::In | Rel::On));
         if matches!(sort, Sort::Carry | Sort::Put) {
             told.carried_to =
                 whither.and_then(|place| self.knowledge.area_of(place)).or(told.carried_to);
@@ -643,14 +646,6 @@ impl Resolver<'_, '_> {
         let other = other.or_else(|| named().find(|t| agrees(t)).filter(|_| !agrees(last)));
         other.filter(|other| *other != last && !fits(&last)).copied()
     }
-
-    /// «туда»: to what was spoken of.
-    fn to_there(&self, thing: Thing, phrase: &Phrase) -> Edit {
-        let to = self.knowledge.pick("к ", "to ");
-        let name = format!("{to}{}", self.knowledge.form(thing, Case::Dative));
-        let at = self.bytes(&phrase.words);
-        Edit { at, name, things: vec![thing], object: false, goal: None }
-    }
 }
 
 /// A verb with the nouns that stand in its clause, each with its place among the items.
@@ -670,6 +665,8 @@ struct Told {
     place: Option<Thing>,
     /// Whether the sentence itself has named that, and not what was said before it.
     has_named: bool,
+    /// Whether an earlier clause has something put in or on that place.
+    upon: Option<Rel>,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,
     /// What the clause before opens, and may hold things.

@@ -396,6 +396,42 @@ impl Resolver<'_, '_> {
         }
     }
 
+    /// «туда»: to what was spoken of; what is brought goes onto it, or into what holds things. None where "on it" says whither.
+    pub(super) fn to_there(
+        &self,
+        thing: Thing,
+        sort: Sort,
+        phrase: &Phrase,
+        items: &[Item],
+        upon: Option<Rel>,
+    ) -> Result<Option<Edit>, (Doubt, Range<usize>)> {
+        let at = self.bytes(&phrase.words);
+        let by_pronoun = |item: &Item| match item {
+            Item::Place { nouns, .. } => nouns.iter().any(|place| place.pronoun.is_some()),
+            _ => false,
+        };
+        let inside = self.sentence.keys[phrase.words.start] == "in";
+        let (thing, rel) = match sort {
+            Sort::Go => (thing, None),
+            _ if items.iter().any(by_pronoun) => return Ok(None),
+            _ => match self.knowledge.bearer_there(thing) {
+                place if inside && place.replica().is_some() => (place, Some(Rel::In)),
+                place if upon.is_some() && place == thing => (place, upon),
+                place => {
+                    let rel = self.knowledge.in_or_on_there(place);
+                    (place, rel.map_err(|doubt| (doubt, at.clone()))?)
+                }
+            },
+        };
+        let (to, case) = match rel {
+            Some(Rel::In) => (self.knowledge.pick("в", "into"), Case::Accusative),
+            Some(_) => (self.knowledge.pick("на", "onto"), Case::Accusative),
+            None => (self.knowledge.pick("к", "to"), Case::Dative),
+        };
+        let name = format!("{to} {}", self.knowledge.form(thing, case));
+        Ok(Some(Edit { at, name, things: vec![thing], object: false, goal: None }))
+    }
+
     /// "Bring the mug from there": the words, with the preposition.
     pub(super) fn words_for_there(&self, clause: &Clause<'_>) -> Option<Range<usize>> {
         let first = clause.objects.first()?.0;
