@@ -461,8 +461,7 @@ impl Conditional {
     /// "If there is no banana": whether it is asked for what is not so.
     #[must_use]
     pub fn denies(&self) -> bool {
-        const NOT: [&str; 6] = ["no", "not", "t", "nobody", "нет", "не"];
-        word_keys(&self.question).iter().any(|key| NOT.contains(&key.as_str()))
+        word_keys(&self.question).iter().any(|key| set!("DeniesCondition").contains(&key.as_str()))
     }
 
     /// What is told where it is not known whether the condition holds: of an event, mostly.
