@@ -79,6 +79,33 @@ fn a_way_that_is_told_by_its_rooms_is_the_way_that_is_driven() {
     }
 }
 
+/// A thing called as the end of a short form is called ("m", "s") is not meant where that form is said.
+#[test]
+fn no_name_begins_behind_an_apostrophe() {
+    let (_dir, mut engine) = map("rb2", |text| text);
+    let asked = [
+        "What's in Room Z?",
+        "I'm in Room Z. What's here?",
+        "Where's the medicine?",
+        "Isn't Door VZ closed?",
+        "I’m at Table 1. How far is it to Room V?",
+    ];
+    let told = |engine: &Engine| asked.map(|line| ask(engine, line).text);
+    let mut before = None;
+    for name in ["zone", "m", "s", "t"] {
+        if before.is_some() {
+            lay(&mut engine, "[[edit]]\nremove = \"Зона\"\n");
+        }
+        lay(
+            &mut engine,
+            &format!(
+                "[zone.z]\nname = \"Зона\"\nname_en = \"{name}\"\nkind = \"slow\"\nspeed = 0.3\nrooms = [\"room-y\"]\n"
+            ),
+        );
+        assert_eq!(told(&engine), *before.get_or_insert_with(|| told(&engine)), "{name}");
+    }
+}
+
 /// How far it is without entering a room: as far as without a word of it where the way does not lead there, else farther or
 /// not at all.
 #[test]

@@ -420,9 +420,13 @@ impl<'t> Sentence<'t> {
         true
     }
 
-    /// How many words the longest name takes. No name goes over a comma, and «комнат в которых» is not Комната-В.
+    /// How many words the longest name takes. No name goes over a comma, and «комнат в которых» is not Комната-В; none begins
+    /// behind an apostrophe: in "I'm" nothing called "m" is meant.
     fn name_length(&self, at: usize, lexicon: &Lexicon) -> usize {
         let gap = |n: usize| &self.text[self.words[n - 1].end..self.words[n].start];
+        if at > 0 && matches!(gap(at), "'" | "’") {
+            return 0;
+        }
         let cut = |n: &usize| gap(*n).contains([',', ';', ':', '?', '!']);
         let mut end = (at + 1..self.words.len()).find(cut).unwrap_or(self.words.len());
         loop {
