@@ -106,6 +106,53 @@ fn no_name_begins_behind_an_apostrophe() {
     }
 }
 
+/// Rooms that were told are rooms behind "of them", too: "which of them has none?" is answered as "which rooms have none?".
+#[test]
+fn of_rooms_that_were_told_those_without_something_are_the_rooms_without_it() {
+    const KINDS: [(&str, &str); 6] = [
+        ("windows", "окон"),
+        ("beds", "кроватей"),
+        ("tables", "столов"),
+        ("pictures", "картин"),
+        ("chairs", "стульев"),
+        ("sinks", "раковин"),
+    ];
+    let mut compared = 0;
+    for name in ["procthor/house_3.json", "procthor/house_7.json", "procthor/house_8.json"] {
+        let Some((_dir, engine)) = house(name) else { return };
+        for (english, russian) in KINDS {
+            let pairs = [
+                (
+                    "Which rooms are there?",
+                    format!("Which of them has no {english}?"),
+                    format!("Which rooms have no {english}?"),
+                ),
+                (
+                    "Какие комнаты есть?",
+                    format!("В какой из них нет {russian}?"),
+                    format!("В какой из комнат нет {russian}?"),
+                ),
+                (
+                    "Какие комнаты есть?",
+                    format!("А в каких из них нет {russian}?"),
+                    format!("В каких комнатах нет {russian}?"),
+                ),
+            ];
+            for (first, of_them, of_rooms) in pairs {
+                let mut memory = Memory::default();
+                engine.ask(first, &mut memory).unwrap().expect("there are rooms");
+                let Ok(told) = engine.ask(&of_them, &mut memory).unwrap() else { continue };
+                let Ok(asked) = engine.ask(&of_rooms, &mut Memory::default()).unwrap() else {
+                    continue;
+                };
+                assert_eq!(told.symbols, asked.symbols, "{name}: {of_them}: {}", told.text);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 20, "{compared}");
+}
+
 /// How far it is without entering a room: as far as without a word of it where the way does not lead there, else farther or
 /// not at all.
 #[test]

@@ -251,6 +251,7 @@ impl Knowledge<'_> {
         self.resume(query);
         self.most_of_their_kind(query);
         self.out_of_its_room(query);
+        query.each_noun(&mut rooms_have);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
             && let Some(things @ ([only] | [_, only])) = noun.head.things.as_deref()
@@ -398,6 +399,15 @@ impl Knowledge<'_> {
 }
 
 /// Whether no word but a pronoun says what is meant.
+/// «Какие комнаты есть? В какой из них нет окон?»: they are rooms, and rooms have what furniture bears.
+fn rooms_have(noun: &mut Noun) {
+    let are_rooms = |things: &Vec<Thing>| things.iter().all(|thing| thing.area().is_some());
+    if noun.head.things.as_ref().is_some_and(are_rooms) {
+        let bearing = noun.restrictions.iter_mut().filter(|told| told.rel == Rel::Bears);
+        bearing.for_each(|told| told.rel = Rel::Has);
+    }
+}
+
 fn is_pronoun(noun: &Noun) -> bool {
     let words = word_keys(&noun.text);
     let said = vocabulary::longest(&words);
