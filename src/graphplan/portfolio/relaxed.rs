@@ -30,7 +30,7 @@ pub(crate) fn needed_by(task: &Task, row: &[OperatorId]) -> Vec<FactId> {
     facts(&needed)
 }
 
-/// The facts that hold, sorted.
+/// The facts of a set, sorted.
 pub(crate) fn facts(state: &State) -> Vec<FactId> {
     bits::members(state).map(|fact| FactId(fact as u32)).collect()
 }

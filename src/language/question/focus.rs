@@ -398,7 +398,6 @@ impl Knowledge<'_> {
     }
 }
 
-/// Whether no word but a pronoun says what is meant.
 /// «Какие комнаты есть? В какой из них нет окон?»: they are rooms, and rooms have what furniture bears.
 fn rooms_have(noun: &mut Noun) {
     let are_rooms = |things: &Vec<Thing>| things.iter().all(|thing| thing.area().is_some());
@@ -408,6 +407,7 @@ fn rooms_have(noun: &mut Noun) {
     }
 }
 
+/// Whether no word but a pronoun says what is meant.
 fn is_pronoun(noun: &Noun) -> bool {
     let words = word_keys(&noun.text);
     let said = vocabulary::longest(&words);
