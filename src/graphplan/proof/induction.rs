@@ -86,7 +86,7 @@ impl<'a> Induction<'a> {
         let operators: Vec<Option<Literal>> =
             task.operator_ids().map(|id| possible(id).then(|| solver.new_variable())).collect();
         let transition = Transition::new(task);
-        transition.add(&mut solver, &before, &operators, &after);
+        transition.add(&mut solver, (graph, top), (&before, &operators, &after));
         add_mutexes(&mut solver, graph, top, &before);
         add_mutexes(&mut solver, graph, top, &after);
         let mut initially = vec![false; task.facts.len()];

@@ -120,7 +120,7 @@ const CHOICES_A_LEVEL: u64 = 128;
 /// level-off, but no more than all else took, and besides such a part of what the other ways spent, a choice of the
 /// search counted for so many.
 const EFFORT_A_LEVEL: u64 = 1 << 10;
-const INDUCTION_SHARE: u64 = 4;
+const INDUCTION_SHARE: u64 = 8;
 const INDUCTION_A_CHOICE: u64 = 2;
 
 /// A choice of a long search takes as long as setting so many variables.
@@ -538,7 +538,7 @@ impl<'a> Extractor<'a> {
         let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
         let beyond = (graph.top() - leveled_off_at) as u64;
         let effort = self.search.choices() * INDUCTION_A_CHOICE + self.encoding.effort();
-        let begins = (EFFORT_A_LEVEL * beyond * beyond).min(effort + graph.effort());
+        let begins = (EFFORT_A_LEVEL * beyond * beyond).min((effort + graph.effort()) / 2);
         let share = begins + effort / INDUCTION_SHARE;
         let limits = self.limits;
         let induction =

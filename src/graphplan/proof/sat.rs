@@ -238,7 +238,7 @@ impl<'a> Encoding<'a> {
             .map(|id| possible(id).then(|| self.solver.new_variable()))
             .collect();
         let (before, after) = (&self.facts[step], &self.facts[step + 1]);
-        self.transition.add(&mut self.solver, before, &variables, after);
+        self.transition.add(&mut self.solver, (graph, step), (before, &variables, after));
         if let Some(before) = self.operators.last() {
             for (done, undoing) in before.iter().zip(&self.undone_by) {
                 let Some(done) = *done else { continue };

@@ -60,13 +60,13 @@ impl<'a> Transition<'a> {
         Self { task, users, added_by }
     }
 
-    /// Says what a step of these operators makes of the facts before it.
+    /// Says what a step of these operators makes of the facts before it, beside what excludes each other at the levels
+    /// before and after it ([`add_mutexes`]): what follows from that is left out.
     pub(crate) fn add(
         &self,
         solver: &mut Solver,
-        before: &Variables,
-        operators: &Variables,
-        after: &Variables,
+        (graph, step): (&PlanningGraph, usize),
+        (before, operators, after): (&Variables, &Variables, &Variables),
     ) {
         for id in self.task.operator_ids() {
             let Some(done) = operators[id.index()] else { continue };
@@ -80,7 +80,10 @@ impl<'a> Transition<'a> {
                 solver.add_clause(&[!done, holds]);
             }
             for fact in &operator.del_effects {
-                if let Some(holds) = after[fact.index()] {
+                let excluded = |add: &FactId| graph.is_exclusive(step + 1, *add, *fact);
+                if let Some(holds) = after[fact.index()]
+                    && !operator.add_effects.iter().any(excluded)
+                {
                     solver.add_clause(&[!done, !holds]);
                 }
             }
@@ -93,7 +96,7 @@ impl<'a> Transition<'a> {
             solver.add_clause(&clause);
         }
         for fact in self.task.fact_ids() {
-            self.add_interference(solver, fact, operators, after);
+            self.add_interference(solver, fact, (graph, step), operators, after);
         }
     }
 
@@ -101,6 +104,7 @@ impl<'a> Transition<'a> {
         &self,
         solver: &mut Solver,
         fact: FactId,
+        (graph, step): (&PlanningGraph, usize),
         operators: &Variables,
         after: &Variables,
     ) {
@@ -114,6 +118,7 @@ impl<'a> Transition<'a> {
             keep_apart(solver, &renewing, &present(beside_renewers));
             at_most_one(solver, &renewing);
         }
+        let together = self.together(takers, (graph, step), operators);
         let (takers, breakers) = (present(takers), present(breakers));
         if takers.is_empty() && breakers.is_empty() {
             return;
@@ -122,8 +127,42 @@ impl<'a> Transition<'a> {
             let after = after[fact.index()].expect("what is kept may hold");
             solver.add_clause(&[!keeper, after]);
         }
-        at_most_one(solver, &takers);
+        match together {
+            Some(pairs) => pairs.iter().for_each(|(a, b)| solver.add_clause(&[!*a, !*b])),
+            None => at_most_one(solver, &takers),
+        }
         keep_apart(solver, &breakers, &takers);
+    }
+
+    /// Pairs of operators that only what they take keeps apart, not what they need besides or bring about; none where
+    /// these are too many to be said one by one.
+    fn together(
+        &self,
+        takers: &[OperatorId],
+        (graph, step): (&PlanningGraph, usize),
+        operators: &Variables,
+    ) -> Option<Vec<(Literal, Literal)>> {
+        const MANY: usize = 32;
+        let present: Vec<(OperatorId, Literal)> =
+            takers.iter().filter_map(|id| Some((*id, operators[id.index()]?))).collect();
+        if present.len() > MANY {
+            return None;
+        }
+        let exclude = |level, these: &[FactId], those: &[FactId]| {
+            these.iter().any(|a| those.iter().any(|b| graph.is_exclusive(level, *a, *b)))
+        };
+        let mut together = Vec::new();
+        for (at, &(one, a)) in present.iter().enumerate() {
+            for &(other, b) in &present[..at] {
+                let (one, other) = (self.task.operator(one), self.task.operator(other));
+                if !exclude(step + 1, &one.add_effects, &other.add_effects)
+                    && !exclude(step, &one.preconditions, &other.preconditions)
+                {
+                    together.push((a, b));
+                }
+            }
+        }
+        (together.len() <= 3 * present.len()).then_some(together)
     }
 
     /// Of the operators done, those that make the wanted facts hold that did not hold before, and the facts that all
