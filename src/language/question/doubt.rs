@@ -30,6 +30,14 @@ pub enum Doubt {
     InOrOn {
         place: Thing,
     },
+    /// The person has told where it is, in words that come to no place.
+    Astray {
+        told: String,
+    },
+    /// What was told beside a question bears upon its answer, and how is not known.
+    Unheeded {
+        told: String,
+    },
     /// Nothing on the map is called so.
     Unknown {
         reference: String,
@@ -74,6 +82,11 @@ impl Doubt {
         Self::NotUnderstood { words }
     }
 
+    pub(super) fn unheeded(told: &str) -> Self {
+        let told = told.trim_matches(|c: char| !c.is_alphanumeric());
+        Self::Unheeded { told: told.to_owned() }
+    }
+
     /// The doubt in the words of who asked: a sentence is put plainly before it is read, and what was put in is not theirs.
     pub(super) fn quoted_from(self, text: &str) -> Self {
         match self {
@@ -91,9 +104,12 @@ impl Doubt {
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } | Self::Windows => {
-                "not_understood"
-            }
+            Self::Empty
+            | Self::TooLong { .. }
+            | Self::NotUnderstood { .. }
+            | Self::Astray { .. }
+            | Self::Unheeded { .. }
+            | Self::Windows => "not_understood",
             Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
             Self::Ambiguous { .. } | Self::InOrOn { .. } => "ambiguous",
             Self::Unknown { .. }

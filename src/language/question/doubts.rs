@@ -96,6 +96,14 @@ impl Knowledge<'_> {
                 true => format!("я не понимаю: «{}»", tidy(words)),
                 false => format!("I do not understand \"{}\"", tidy(words)),
             },
+            Doubt::Astray { told } => match russian {
+                true => format!("я не понял, где вы: «{}»", tidy(told)),
+                false => format!("I did not understand where you are: \"{}\"", tidy(told)),
+            },
+            Doubt::Unheeded { told } => match russian {
+                true => format!("не знаю, как учесть сказанное: «{}»", tidy(told)),
+                false => format!("I do not know how to reckon with \"{}\"", tidy(told)),
+            },
             Doubt::Incomplete { about } => match russian {
                 true => format!("что вы хотите узнать про «{}»?", tidy(about)),
                 false => format!("what would you like to know about \"{}\"?", tidy(about)),

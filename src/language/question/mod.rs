@@ -33,6 +33,7 @@ mod everyday;
 mod focus;
 mod follow;
 mod grammar;
+mod heeded;
 mod here;
 mod knowledge;
 mod level_words;
@@ -643,6 +644,9 @@ impl Asker<'_> {
         if of_robot && place.is_some() && word_keys(text).iter().any(opening::is_me) {
             let words = text.to_owned();
             return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
+        }
+        if let Some(words) = memory.astray.as_ref().filter(|_| query.counts_from_here()) {
+            return Err(Box::new((Doubt::Astray { told: words.clone() }, None)));
         }
         if let Some(place) = place {
             query = query.asked_at(place);

@@ -18,6 +18,8 @@ use crate::words::{Language, word_keys, word_ranges};
 struct Told {
     /// Where the person says to be.
     place: Option<Noun>,
+    /// The words in which it is told where the person is, where these come to no place.
+    astray: Option<String>,
     /// What they name.
     named: Named,
 }
@@ -127,6 +129,9 @@ impl Asker<'_> {
                 }
                 let mut heard = memory.clone();
                 told.named.heard(&mut heard);
+                if let Some(words) = &told.astray {
+                    Self::lose_person(words, &mut heard);
+                }
                 if let Some(place) = &told.place {
                     self.hear_of_place(place, &mut heard);
                 }
@@ -140,7 +145,10 @@ impl Asker<'_> {
                         if claimed
                             && !self.asks(asked)
                             && !matches!(answer.said, Said::Yes | Said::No) => {}
-                    Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
+                    Ok(answer) => match self.heeding(&aside, answer, &heard) {
+                        Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
+                        Err(doubt) => doubted = doubted.or(Some(Box::new((doubt, None)))),
+                    },
                     Err(unanswered) if self.is_understood(&unanswered.0) => {
                         doubted.get_or_insert(unanswered);
                     }
@@ -179,7 +187,12 @@ impl Asker<'_> {
                 match self.premise(part) {
                     Some(place) if told.place.is_none() => told.place = Some(place),
                     Some(_) => return None,
-                    None => told.named.add(self.names_only(part, memory)?),
+                    None => {
+                        told.named.add(self.names_only(part, memory)?);
+                        if self.is_astray(part) {
+                            told.astray = Some(part.to_owned());
+                        }
+                    }
                 }
             }
         }

@@ -463,7 +463,8 @@ impl Knowledge<'_> {
         // A place that is not there has nothing to count.
         for noun in of {
             for restriction in &noun.restrictions {
-                for anchor in &restriction.anchors {
+                let named = |a: &&Noun| !self.is_walls(a) && !self.is_floor(a);
+                for anchor in restriction.anchors.iter().filter(named) {
                     self.anchors(restriction, anchor, false)?;
                 }
             }

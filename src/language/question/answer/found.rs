@@ -195,28 +195,6 @@ impl Knowledge<'_> {
         })
     }
 
-    /// "Is there a lift? Which floors does it go to?": where it stops.
-    fn storeys_of_lift(&self, noun: &Noun) -> Option<Draft> {
-        let storeys = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Storeys;
-        let [place] = &noun.restrictions[..] else { return None };
-        if place.negated || !noun.head.kinds.iter().any(storeys) {
-            return None;
-        }
-        let [cabin] = self.find(place.anchors.first()?, true).ok()?[..] else { return None };
-        let area = cabin.area()?;
-        let lifts = &self.world.domain.lifts;
-        let (_, stops) = lifts.iter().find(|(_, stops)| stops.iter().any(|s| s.area == area))?;
-        let on = |area| self.world.placement(area).map(|(map, _)| Thing::Entity(Entity::Map(map)));
-        let mut maps: Vec<Thing> = stops.iter().filter_map(|stop| on(stop.area)).collect();
-        maps.dedup();
-        let (name, list) = (self.name(cabin), self.list(&maps));
-        let text = match self.is_russian() {
-            true => format!("{name} останавливается здесь: {list}"),
-            false => format!("{name} stops at {list}"),
-        };
-        Some(Draft::new(Said::Found, text).with(maps).about(&[cabin]))
-    }
-
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
     fn neighbours(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
         if let Some(text) = self.led_from(noun, found) {
@@ -481,6 +459,7 @@ impl Knowledge<'_> {
             }
         };
         let said = if number == 0 { Said::Nothing } else { Said::Found };
+        let text = format!("{text}{}", self.within_as_well(noun, &found));
         Ok(Draft { facts, ..Draft::new(said, text).with(found) }
             .about(&anchors)
             .number(number as f64))
