@@ -50,15 +50,16 @@ fn what_is_said_of_a_door_bears_upon_the_way() {
                 let Ok(answer) = answered(&rb2, &line) else { continue };
                 told += 1;
                 assert!(stuck, "{line}\n  {}", answer.text);
-                assert!(answer.text.starts_with("Avoiding"), "{line}\n  {}", answer.text);
-                let way = answer.text.split_once(". ").map_or("", |(_, way)| way);
+                assert!(answer.text.contains("Avoiding"), "{line}\n  {}", answer.text);
+                let (_, way) = answer.text.split_once("Avoiding").unwrap_or_default();
+                let way = way.split_once(". ").map_or("", |(_, way)| way);
                 let only = way.contains("this is the only way");
                 assert!(only || !way.contains(&door.name_en), "{line}\n  {}", answer.text);
                 around += 1;
             }
             let line = format!("{} заклинило. Как пройти в {}?", door.name, area.name);
             if let Ok(answer) = answered(&rb2, &line) {
-                assert!(answer.text.starts_with("В обход"), "{line}\n  {}", answer.text);
+                assert!(answer.text.contains("В обход"), "{line}\n  {}", answer.text);
             }
         }
     }

@@ -30,6 +30,11 @@ pub enum Doubt {
     InOrOn {
         place: Thing,
     },
+    /// Something is asked of what is in a point, as if that were a room.
+    PointNoRoom {
+        point: Thing,
+        room: Thing,
+    },
     /// The person has told where it is, in words that come to no place.
     Astray {
         told: String,
@@ -117,6 +122,7 @@ impl Doubt {
             | Self::TooFew { .. }
             | Self::TooMany { .. }
             | Self::Departed { .. }
+            | Self::PointNoRoom { .. }
             | Self::Past { .. }
             | Self::NoStorey { .. } => "unknown",
         }

@@ -96,6 +96,13 @@ impl Knowledge<'_> {
                 true => format!("я не понимаю: «{}»", tidy(words)),
                 false => format!("I do not understand \"{}\"", tidy(words)),
             },
+            Doubt::PointNoRoom { point, room } => {
+                let (name, place) = (self.name(*point), self.place(Rel::In, &[*room]));
+                match russian {
+                    true => format!("{name} – точка, а не помещение: она {place}"),
+                    false => format!("{name} is a point and not a room: it is {place}"),
+                }
+            }
             Doubt::Astray { told } => match russian {
                 true => format!("я не понял, где вы: «{}»", tidy(told)),
                 false => format!("I did not understand where you are: \"{}\"", tidy(told)),

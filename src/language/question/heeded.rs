@@ -4,13 +4,14 @@
 //! what else is said of a door, a lift or a room, nothing here knows how it bears upon a way.
 
 use super::grammar::{Item, Phrase, Sentence};
+use super::knowledge::Knowledge;
 use super::mark::Mark;
 use super::query::{Best, Extreme, Passing, Rel};
 use super::{Answer, Asker, Doubt, Memory, Noun, Query, Thing};
 use crate::map::Entity;
 use crate::sets::set;
 use crate::units::AreaId;
-use crate::words::{Language, word_keys};
+use crate::words::{Case, Language, word_keys};
 
 impl Asker<'_> {
     /// An answer that heeds what was told beside its question.
@@ -35,7 +36,7 @@ impl Asker<'_> {
         }
         let mut avoided = Vec::new();
         for part in told.iter().filter(|part| self.bears_upon(part, &answer, memory)) {
-            match self.out_of_use(part) {
+            match self.out_of_use(part).or_else(|| self.shunned(part)) {
                 Some(noun) => avoided.push(noun),
                 None => return Err(Doubt::unheeded(part)),
             }
@@ -78,7 +79,10 @@ impl Asker<'_> {
                 | Query::WhichWay { .. }
         );
         let leads = |thing: &Thing| {
-            let opens = matches!(thing, Thing::Opening(_) | Thing::Entity(Entity::Door(_)));
+            let opens = matches!(
+                thing,
+                Thing::Opening(_) | Thing::Entity(Entity::Door(_) | Entity::Map(_))
+            );
             let lift = thing.area().is_some_and(|area| self.is_lift(area));
             opens || lift || thing.area().is_some() && !ends.contains(thing)
         };
@@ -99,6 +103,15 @@ impl Asker<'_> {
                     // Which of them is meant is not known.
                     _ => goes && (self.is_room(&noun) || !noun.head.named.is_empty()),
                 }
+            }
+            // "There is a flood in the kitchen", where the way leads through it.
+            Item::Place { rel, nouns, .. } if goes => {
+                let found = nouns.iter().filter(|phrase| phrase.person.is_none()).flat_map(|p| {
+                    let noun = Noun { plural: true, ..p.noun.clone() };
+                    knowledge.find(&noun, true).unwrap_or_default()
+                });
+                let through = *rel == Rel::Through;
+                found.filter(leads).any(|thing| through || knowledge.mentions(&answer.text, thing))
             }
             _ => false,
         })
@@ -139,14 +152,39 @@ impl Asker<'_> {
             item => names(item),
         };
         let alone = items.iter().any(place) && items.iter().all(small);
-        // "The one in the bedroom: what is it standing on?"
-        let alone = alone && self.pronouns(asked).is_empty();
-        self.limits(text) || set!("Narrowing").iter().any(|phrase| narrows(&phrase)) || alone
+        // "The one in the bedroom: what is it standing on?", «Я про спальню: сколько там картин?»
+        let taken_up = !self.pronouns(asked).is_empty() || self.says_there(asked);
+        self.limits(text)
+            || !taken_up && (set!("Narrowing").iter().any(|phrase| narrows(&phrase)) || alone)
     }
 
     fn is_lift(&self, area: AreaId) -> bool {
         let lifts = &self.world.domain.lifts;
         lifts.iter().any(|(_, stops)| stops.iter().any(|stop| stop.area == area))
+    }
+
+    fn says_there(&self, text: &str) -> bool {
+        let plain = self.plain(text);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        items.iter().any(|item| match item {
+            Item::Noun(phrase) => phrase.person == Some(Mark::There),
+            item => *item == Item::Mark(Mark::There),
+        })
+    }
+
+    /// "I don't want to go through the kitchen."
+    fn shunned(&self, part: &str) -> Option<Noun> {
+        let plain = self.plain(part);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        let denies = |item: &Item| matches!(item, Item::Mark(Mark::Not | Mark::Cannot));
+        let mut through = items.iter().filter_map(|item| match item {
+            Item::Place { rel: Rel::Through, nouns, either: false } => Some(nouns),
+            _ => None,
+        });
+        let (only, more) = (through.next()?, through.next());
+        let [phrase] = &only[..] else { return None };
+        let named = phrase.pronoun.is_none() && phrase.person.is_none();
+        (items.iter().any(denies) && more.is_none() && named).then(|| phrase.noun.clone())
     }
 
     /// The one thing of which a part tells only that it is out of use.
@@ -172,6 +210,18 @@ impl Asker<'_> {
             }
         }
         only
+    }
+}
+
+impl Knowledge<'_> {
+    /// Whether a text has the name of a thing, in whichever case.
+    fn mentions(&self, text: &str, thing: Thing) -> bool {
+        let said = format!(" {} ", word_keys(text).join(" "));
+        let has = |name: String| said.contains(&format!(" {} ", word_keys(&name).join(" ")));
+        match self.language {
+            Language::English => has(self.name(thing)),
+            Language::Russian => Case::ALL.iter().any(|case| has(self.form(thing, *case))),
+        }
     }
 }
 

@@ -50,6 +50,7 @@ mod opening;
 mod orders;
 mod outlive;
 mod past;
+mod points;
 mod premise;
 mod pronouns;
 mod purposes;
@@ -644,9 +645,6 @@ impl Asker<'_> {
         if of_robot && place.is_some() && word_keys(text).iter().any(opening::is_me) {
             let words = text.to_owned();
             return Err(Box::new((Doubt::NotUnderstood { words }, Some(query))));
-        }
-        if let Some(words) = memory.astray.as_ref().filter(|_| query.counts_from_here()) {
-            return Err(Box::new((Doubt::Astray { told: words.clone() }, None)));
         }
         if let Some(place) = place {
             query = query.asked_at(place);

@@ -92,6 +92,12 @@ impl Knowledge<'_> {
     /// What one word in the singular may mean of several: "it" after a list, "that one". Where they are told by name one
     /// by one, all of them are.
     pub(super) fn contested(&self, query: &Query) -> Option<Doubt> {
+        if let Some(told) = self.memory.astray.as_ref().filter(|_| query.counts_from_here()) {
+            return Some(Doubt::Astray { told: told.clone() });
+        }
+        if let Some(doubt) = self.is_point_not_room(query) {
+            return Some(doubt);
+        }
         if matches!(query, Query::Where(_) | Query::RoomOf(_) | Query::Several(_)) {
             return None;
         }

@@ -102,7 +102,7 @@ impl Asker<'_> {
                 if asked.len() == text.trim().len() && !whole || !(self.asks(asked) || claimed) {
                     continue;
                 }
-                let Some(told) = self.told_aside(&aside, memory) else { break };
+                let Some(told) = self.told_aside(&aside, asked, memory) else { break };
                 // "Is there a mug anywhere else?" without its "is" is another question.
                 if self.says_something(within) || !self.asks_of_something(asked) {
                     continue;
@@ -149,16 +149,22 @@ impl Asker<'_> {
                         Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
                         Err(doubt) => doubted = doubted.or(Some(Box::new((doubt, None)))),
                     },
-                    Err(unanswered) if self.is_understood(&unanswered.0) => {
-                        doubted.get_or_insert(unanswered);
-                    }
-                    // "… which bins do we have, and where are they?"
-                    Err(_) => match self.each_part(asked, language, &mut heard) {
-                        Some(Ok(answer)) if told.place.is_none() => {
-                            return Some(Ok(answer.understood_as(asked, language)));
+                    Err(unanswered) => {
+                        // "… which bins do we have, and where are they?"
+                        let parts = || self.each_part(asked, language, &mut heard);
+                        let understood = self.is_understood(&unanswered.0);
+                        let of_parts =
+                            !understood || matches!(unanswered.0, Doubt::NoneSuch { .. });
+                        match of_parts.then(parts).flatten() {
+                            Some(Ok(answer)) if told.place.is_none() => {
+                                return Some(Ok(answer.understood_as(asked, language)));
+                            }
+                            _ if understood => {
+                                doubted.get_or_insert(unanswered);
+                            }
+                            _ => {}
                         }
-                        _ => {}
-                    },
+                    }
                 }
             }
         }
@@ -168,17 +174,23 @@ impl Asker<'_> {
     /// Whether a doubt is none of the words: they are understood, and the map has several such things, or none.
     fn is_understood(&self, doubt: &Doubt) -> bool {
         match doubt {
-            Doubt::Ambiguous { .. } => true,
+            Doubt::Ambiguous { .. } | Doubt::NoneSuch { .. } => true,
             Doubt::Unknown { reference, .. } => self.is_word(reference),
             _ => false,
         }
     }
 
     /// What is told in what is left aside; none where it does more than tell.
-    fn told_aside(&self, aside: &[&str], memory: &Memory) -> Option<Told> {
+    fn told_aside(&self, aside: &[&str], asked: &str, memory: &Memory) -> Option<Told> {
         let mut told = Told::default();
         for text in aside {
             for (from, to) in parts(text) {
+                // "Which is closer to the pantry, …?": no clause stands before it that it could go on from.
+                let begins = std::ptr::eq(*text, aside[0]) && from == 0;
+                let asks = |key: &String| set!("AskingWord").contains(&key.as_str());
+                if begins && word_keys(&text[..to]).first().is_some_and(asks) {
+                    return None;
+                }
                 // «Мне сказали, что тостер сломался, где он?»: what somebody says is told, and asks for nothing.
                 let part = match is_reported(&word_keys(&text[..from])) {
                     true => behind_joint(&text[from..to]),
@@ -187,6 +199,7 @@ impl Asker<'_> {
                 match self.premise(part) {
                     Some(place) if told.place.is_none() => told.place = Some(place),
                     Some(_) => return None,
+                    None if self.narrows(part, asked) => return None,
                     None => {
                         told.named.add(self.names_only(part, memory)?);
                         if self.is_astray(part) {

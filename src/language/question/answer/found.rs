@@ -8,9 +8,10 @@ use crate::question::knowledge::{Frame, Held, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Denial, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Doubt, Said};
+use crate::sets::set;
 use crate::units::InOrder as _;
 use crate::words::length;
-use crate::words::{Language, enumerate, russian};
+use crate::words::{Language, enumerate, russian, word_keys};
 
 impl Knowledge<'_> {
     pub(super) fn say_found(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -490,6 +491,22 @@ impl Knowledge<'_> {
             let mut things = self.find(noun, true)?;
             self.one_of_each_lift(noun, &mut things);
             found.push(things);
+        }
+        // "Is there another toilet?" has one in mind that was not spoken of.
+        if let ([noun], [things], Denial::None) = (what, &found[..], denial)
+            && noun.other
+            && !noun.head.anything
+            && word_keys(&noun.text).iter().any(|key| set!("Another").contains(&key.as_str()))
+            && let [only] = things[..]
+            && self.find(&Noun { other: false, ..noun.clone() }, true)? == [only]
+        {
+            let (name, place) = (self.name(only), self.restrictions(noun));
+            let text = match self.is_russian() {
+                true if place.is_empty() => format!("нет, есть только {name}"),
+                true => format!("нет, {place} есть только {name}"),
+                false => format!("no, there is only {name} {place}"),
+            };
+            return Ok(Draft::new(Said::No, text.trim_end().to_owned()).with(vec![only]));
         }
         let have = |n: usize| !found[n].is_empty();
         let any = (0..what.len()).any(have);
