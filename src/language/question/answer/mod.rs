@@ -206,7 +206,7 @@ impl Knowledge<'_> {
         if let Some(untold) = self.untold(query) {
             draft.text = format!("{}; {untold}", draft.text.trim_end_matches('.'));
         }
-        let draft = self.hedged(query, draft);
+        let draft = self.hedged(query, self.as_measured(query, draft));
         let mut topic = draft.things.clone();
         topic.extend(draft.topic);
         Ok(Answer {
