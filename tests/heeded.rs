@@ -303,3 +303,50 @@ fn there_is_light_where_a_lamp_is_on_and_none_where_all_are_off() {
         }
     }
 }
+
+/// What is in a point is asked of the room where that is the only one, and of no point else.
+#[test]
+fn nothing_is_in_a_point() {
+    for file in ["rmf/office.building.yaml", CLINIC] {
+        let Some(engine) = of_others(file) else { return };
+        let world = engine.world().unwrap();
+        for place in world.places.values() {
+            let alone = world.places.values().filter(|p| p.area == place.area).count() == 1;
+            for line in [
+                format!("What is in {}?", place.name_en),
+                format!("How many chairs are in {}?", place.name_en),
+                format!("Is there a chair in {}?", place.name_en),
+            ] {
+                let answer = answered(&engine, &line);
+                assert!(alone || answer.is_err(), "{line}: {:?}", answer.map(|a| a.text));
+            }
+        }
+    }
+}
+
+/// What is out of the question for who asks is no "other one": of two, the one that was told is left out, and of one nothing is
+/// left.
+#[test]
+fn the_other_one_is_not_the_one_that_was_told() {
+    let mut told = 0;
+    for file in HOUSES {
+        let Some(engine) = of_others(file) else { return };
+        let world = engine.world().unwrap();
+        for (kind, all) in kinds(world).iter().filter(|(_, all)| all.len() == 2) {
+            let [first, second] = all[..] else { continue };
+            if first.area == second.area {
+                continue;
+            }
+            for (one, other) in [(first, second), (second, first)] {
+                let room = &world.areas[&one.area].name_en;
+                let line =
+                    format!("The {kind} in the {room} fell over. Where is the other {kind}?");
+                let Ok(answer) = answered(&engine, &line) else { continue };
+                let is = |replica: &Replica| Thing::Entity(Entity::Replica(replica.id));
+                assert_eq!(answer.things, [is(other)], "{line}\n  {}", answer.text);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 2, "{told}");
+}

@@ -195,10 +195,16 @@ impl Knowledge<'_> {
                 let place = self.restrictions(noun);
                 let none = self.none_of(noun);
                 let general = noun.head.anything;
+                let none = match (noun.other && !general, russian) {
+                    (true, true) => format!("других {none}"),
+                    (true, false) => format!("other {none}"),
+                    (false, _) => none,
+                };
                 match (russian, place.is_empty(), general) {
                     (true, true, _) => format!("на карте нет {none}"),
                     (true, false, true) => format!("{place} ничего нет"),
                     (true, false, false) => format!("{place} нет {none}"),
+                    (false, true, false) if noun.other => format!("the map has no {none}"),
                     (false, true, _) => format!("there is no such thing on the map: {none}"),
                     (false, false, _) => self.there_is_no(noun, &place),
                 }

@@ -90,7 +90,9 @@ impl Asker<'_> {
             true => leads(thing),
             false => answer.things.contains(thing),
         };
-        if !(goes || nearest) {
+        // "Guests sleep on the sofa. Where else can I sit?"
+        let else_ = word_keys(&answer.words).iter().any(|key| set!("Else").contains(&&**key));
+        if !(goes || nearest || else_) {
             return false;
         }
         let plain = self.plain(part);
@@ -104,8 +106,16 @@ impl Asker<'_> {
                     _ => goes && (self.is_room(&noun) || !noun.head.named.is_empty()),
                 }
             }
+            // "Somebody sits on the chair", which would be the nearest.
+            Item::Place { nouns, .. } if !goes => {
+                let found = nouns.iter().filter(|phrase| phrase.person.is_none()).flat_map(|p| {
+                    let noun = Noun { plural: true, ..p.noun.clone() };
+                    knowledge.find(&noun, true).unwrap_or_default()
+                });
+                found.filter(|thing| thing.replica().is_some()).any(|thing| bears(&thing))
+            }
             // "There is a flood in the kitchen", where the way leads through it.
-            Item::Place { rel, nouns, .. } if goes => {
+            Item::Place { rel, nouns, .. } => {
                 let found = nouns.iter().filter(|phrase| phrase.person.is_none()).flat_map(|p| {
                     let noun = Noun { plural: true, ..p.noun.clone() };
                     knowledge.find(&noun, true).unwrap_or_default()

@@ -98,8 +98,13 @@ impl Knowledge<'_> {
         if let Some(doubt) = self.is_point_not_room(query) {
             return Some(doubt);
         }
-        if matches!(query, Query::Where(_) | Query::RoomOf(_) | Query::Several(_)) {
-            return None;
+        // So many are told one by one.
+        const FEW: usize = 12;
+        let few = |noun: &Noun| noun.head.things.as_ref().is_none_or(|things| things.len() <= FEW);
+        match query {
+            Query::Where(noun) | Query::RoomOf(noun) if few(noun) => return None,
+            Query::Several(_) => return None,
+            _ => {}
         }
         let mut doubt = None;
         let single = |noun: &Noun| {

@@ -57,7 +57,7 @@ impl Asker<'_> {
             part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes
         };
         let any_marked = (0..parts.len()).any(marked);
-        let mut doubted = None;
+        let (mut doubted, mut untold) = (None, None);
         for (from, to) in spans {
             if any_marked && !(from..=to).any(marked) {
                 continue;
@@ -135,11 +135,23 @@ impl Asker<'_> {
                 if let Some(place) = &told.place {
                     self.hear_of_place(place, &mut heard);
                 }
-                match self.answer_at(told.place.as_ref(), asked, language, &heard) {
+                // "… which bins do we have, and where are they?"
+                let placed = told.place.is_some();
+                let parts = || self.each_part(asked, language, &mut heard.clone());
+                let answered = match (!placed).then(parts).flatten() {
+                    Some(Ok(answer)) => Ok(answer),
+                    _ => self.answer_at(told.place.as_ref(), asked, language, &heard),
+                };
+                match answered {
                     // What was never seen is no doubt of the words.
                     Ok(answer)
                         if answer.said == Said::Unknown
-                            && !matches!(answer.query, Query::LastSeen(_)) => {}
+                            && !matches!(answer.query, Query::LastSeen(_)) =>
+                    {
+                        if matches!(answer.query, Query::Property { .. }) {
+                            untold.get_or_insert(answer.understood_as(asked, language));
+                        }
+                    }
                     // A claim that somebody makes is true or not.
                     Ok(answer)
                         if claimed
@@ -149,26 +161,14 @@ impl Asker<'_> {
                         Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
                         Err(doubt) => doubted = doubted.or(Some(Box::new((doubt, None)))),
                     },
-                    Err(unanswered) => {
-                        // "… which bins do we have, and where are they?"
-                        let parts = || self.each_part(asked, language, &mut heard);
-                        let understood = self.is_understood(&unanswered.0);
-                        let of_parts =
-                            !understood || matches!(unanswered.0, Doubt::NoneSuch { .. });
-                        match of_parts.then(parts).flatten() {
-                            Some(Ok(answer)) if told.place.is_none() => {
-                                return Some(Ok(answer.understood_as(asked, language)));
-                            }
-                            _ if understood => {
-                                doubted.get_or_insert(unanswered);
-                            }
-                            _ => {}
-                        }
+                    Err(unanswered) if self.is_understood(&unanswered.0) => {
+                        doubted.get_or_insert(unanswered);
                     }
+                    Err(_) => {}
                 }
             }
         }
-        doubted.map(Err)
+        doubted.map(Err).or(untold.map(Ok))
     }
 
     /// Whether a doubt is none of the words: they are understood, and the map has several such things, or none.

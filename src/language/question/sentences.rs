@@ -5,8 +5,8 @@ use super::mark::{Mark, Pronoun};
 use super::query::Denial;
 use super::salvage::{goes_on, is_reported};
 use super::{
-    Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Thing, Unanswered, opening, premise,
-    several, vocabulary,
+    Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Restriction, Thing, Unanswered,
+    opening, premise, several, vocabulary,
 };
 use crate::command::is_too_long;
 use crate::sets::{Set, set};
@@ -476,8 +476,24 @@ impl Asker<'_> {
     pub fn hear_of(&self, text: &str, memory: &mut Memory) {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let (mut nouns, mut places) = (Vec::new(), Vec::new());
+        let (mut nouns, mut places) = (Vec::<Noun>::new(), Vec::new());
+        let mut behind_noun = false;
         for item in sentence.items() {
+            // "The television in the bedroom broke": that one, where there is one there.
+            if let (true, Item::Place { rel: rel @ (Rel::In | Rel::On), nouns: anchors, .. }) =
+                (behind_noun, &item)
+                && let Some(noun) = nouns.last_mut()
+                && anchors.iter().all(|anchor| anchor.person.is_none() && anchor.pronoun.is_none())
+            {
+                let anchors = anchors.iter().map(|anchor| anchor.noun.clone()).collect();
+                let mut placed = noun.clone();
+                placed.restrictions.push(Restriction { rel: *rel, anchors, negated: false });
+                let knowledge = self.knowledge(sentence.language, memory);
+                if knowledge.find(&placed, true).is_ok_and(|found| !found.is_empty()) {
+                    *noun = placed;
+                }
+            }
+            behind_noun = matches!(&item, Item::Noun(phrase) if phrase.person.is_none());
             match item {
                 Item::Noun(phrase) if phrase.person.is_none() => nouns.push(phrase.noun),
                 Item::Place { rel: Rel::In | Rel::On | Rel::At | Rel::To, nouns, .. } => {
