@@ -45,6 +45,7 @@ mod generated_worlds;
 mod going_on;
 mod gone_on;
 mod guides;
+mod heeded;
 mod hostile;
 mod ifc;
 mod imports;

@@ -17,6 +17,8 @@ pub enum Mark {
     KeptOn,
     /// Whether there is light in a room by itself.
     Light,
+    /// That the size of an Object is the usual one of its kind, which nobody measured.
+    UsualSize,
 }
 
 impl Mark {
@@ -30,6 +32,7 @@ impl Mark {
             Self::KeyWith => ["КЛЮЧ_У", "key_with"],
             Self::KeptOn => ["ХРАНИТСЯ_НА", "kept_on"],
             Self::Light => ["СВЕТ", "light"],
+            Self::UsualSize => ["ОБЫЧНЫЙ_РАЗМЕР", "usual_size"],
         }
     }
 

@@ -25,6 +25,8 @@ pub(super) struct Built {
     /// The Object's origin in the kind's frame.
     pub(super) origin: Point,
     pub(super) bottom: f64,
+    /// Whether its size is the usual one of such things.
+    pub(super) is_usual: bool,
     pub(super) front: Option<SideRef>,
     pub(super) back: Option<SideRef>,
 }
@@ -51,6 +53,7 @@ impl Body {
 /// Makes an Object's bodies of a kind. `size` serves a kind without parts: width, depth, height.
 pub(super) fn build(kind: &Kind, size: Option<[f64; 3]>, report: &mut Report) -> Built {
     let mut bodies = bodies(kind, report);
+    let is_usual = bodies.is_empty() && size.is_some();
     if bodies.is_empty() {
         let [w, d, h] = size.unwrap_or([MARK, MARK, 0.0]);
         let (x, y) = (w / 2.0, d / 2.0);
@@ -91,6 +94,7 @@ pub(super) fn build(kind: &Kind, size: Option<[f64; 3]>, report: &mut Report) ->
         bodies,
         origin,
         bottom,
+        is_usual,
     }
 }
 

@@ -6,7 +6,7 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::plane::{bounds, doubled_area, edges, meeting};
-use crate::map::{BaseVector, Forms, Object, Place, Properties, Replica, TypeKind};
+use crate::map::{BaseVector, Forms, Mark, Object, Place, Properties, Replica, TypeKind};
 use crate::report::{What, Why};
 use crate::synonyms::{Meaning, Vocabulary};
 use crate::units::{
@@ -94,6 +94,9 @@ impl Maker<'_> {
         let (items, links) = kinds::items(&built, &orthoframes);
         let mut properties = kind.properties.clone();
         properties.insert(SOURCE.to_owned(), kind.source.clone());
+        if built.is_usual {
+            properties.insert(Mark::UsualSize.names()[0].to_owned(), "да".to_owned());
+        }
         let object_type = meaning.as_ref().map(|m| self.types.of(TypeKind::Object, m));
         let key = self.names.key("object", &kind.source);
         self.world.objects.insert(

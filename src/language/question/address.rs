@@ -69,7 +69,13 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
         let within = !line[next..].trim().is_empty() && !before.is_empty();
         // "…, dear?" keeps the mark that ends the line; «Скажи, дружок, где …» one comma; «Где, короче, чашка?» none.
         let joined = within && matches!(cut, Cut::Both);
-        kept.push_str(if within && !joined { before } else { before.trim_end_matches(COMMAS) });
+        // "It is a mess, honestly. Where …?" are two sentences all the same.
+        let closes = within && line[end..next].contains(['.', '!', '?', '…']);
+        let bare = before.trim_end_matches(COMMAS);
+        kept.push_str(if within && !joined && !closes { before } else { bare });
+        if closes && bare.ends_with(char::is_alphanumeric) {
+            kept.push_str(&line[end..next]);
+        }
         from = if within || before.is_empty() && kept.is_empty() { next } else { end };
     }
     let rest = &line[from..];
@@ -182,6 +188,7 @@ mod tests {
             ("Is there honey in the kitchen?", "Is there honey in the kitchen?"),
             ("Принеси чашку, блюдце и ложку", "Принеси чашку, блюдце и ложку"),
             ("Ok wait, is it red?", "is it red?"),
+            ("It rains, dear. Where is the cup?", "It rains. Where is the cup?"),
             ("Подожди, пока я не приду", "Подожди, пока я не приду"),
             ("Mum?", "Mum?"),
             ("Короче, есть чем поиграть?", "есть чем поиграть?"),

@@ -30,6 +30,19 @@ pub enum Doubt {
     InOrOn {
         place: Thing,
     },
+    /// Something is asked of what is in a point, as if that were a room.
+    PointNoRoom {
+        point: Thing,
+        room: Thing,
+    },
+    /// The person has told where it is, in words that come to no place.
+    Astray {
+        told: String,
+    },
+    /// What was told beside a question bears upon its answer, and how is not known.
+    Unheeded {
+        told: String,
+    },
     /// Nothing on the map is called so.
     Unknown {
         reference: String,
@@ -74,6 +87,11 @@ impl Doubt {
         Self::NotUnderstood { words }
     }
 
+    pub(super) fn unheeded(told: &str) -> Self {
+        let told = told.trim_matches(|c: char| !c.is_alphanumeric());
+        Self::Unheeded { told: told.to_owned() }
+    }
+
     /// The doubt in the words of who asked: a sentence is put plainly before it is read, and what was put in is not theirs.
     pub(super) fn quoted_from(self, text: &str) -> Self {
         match self {
@@ -91,9 +109,12 @@ impl Doubt {
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } | Self::Windows => {
-                "not_understood"
-            }
+            Self::Empty
+            | Self::TooLong { .. }
+            | Self::NotUnderstood { .. }
+            | Self::Astray { .. }
+            | Self::Unheeded { .. }
+            | Self::Windows => "not_understood",
             Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
             Self::Ambiguous { .. } | Self::InOrOn { .. } => "ambiguous",
             Self::Unknown { .. }
@@ -101,6 +122,7 @@ impl Doubt {
             | Self::TooFew { .. }
             | Self::TooMany { .. }
             | Self::Departed { .. }
+            | Self::PointNoRoom { .. }
             | Self::Past { .. }
             | Self::NoStorey { .. } => "unknown",
         }

@@ -96,6 +96,21 @@ impl Knowledge<'_> {
                 true => format!("я не понимаю: «{}»", tidy(words)),
                 false => format!("I do not understand \"{}\"", tidy(words)),
             },
+            Doubt::PointNoRoom { point, room } => {
+                let (name, place) = (self.name(*point), self.place(Rel::In, &[*room]));
+                match russian {
+                    true => format!("{name} – точка, а не помещение: она {place}"),
+                    false => format!("{name} is a point and not a room: it is {place}"),
+                }
+            }
+            Doubt::Astray { told } => match russian {
+                true => format!("я не понял, где вы: «{}»", tidy(told)),
+                false => format!("I did not understand where you are: \"{}\"", tidy(told)),
+            },
+            Doubt::Unheeded { told } => match russian {
+                true => format!("не знаю, как учесть сказанное: «{}»", tidy(told)),
+                false => format!("I do not know how to reckon with \"{}\"", tidy(told)),
+            },
             Doubt::Incomplete { about } => match russian {
                 true => format!("что вы хотите узнать про «{}»?", tidy(about)),
                 false => format!("what would you like to know about \"{}\"?", tidy(about)),
@@ -180,10 +195,16 @@ impl Knowledge<'_> {
                 let place = self.restrictions(noun);
                 let none = self.none_of(noun);
                 let general = noun.head.anything;
+                let none = match (noun.other && !general, russian) {
+                    (true, true) => format!("других {none}"),
+                    (true, false) => format!("other {none}"),
+                    (false, _) => none,
+                };
                 match (russian, place.is_empty(), general) {
                     (true, true, _) => format!("на карте нет {none}"),
                     (true, false, true) => format!("{place} ничего нет"),
                     (true, false, false) => format!("{place} нет {none}"),
+                    (false, true, false) if noun.other => format!("the map has no {none}"),
                     (false, true, _) => format!("there is no such thing on the map: {none}"),
                     (false, false, _) => self.there_is_no(noun, &place),
                 }

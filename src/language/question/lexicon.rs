@@ -341,7 +341,9 @@ impl Lexicon {
         let Some(first) = self.kind_of(&Extension::Building).map(|id| self.kind(id).clone()) else {
             return;
         };
-        for name in [&world.domain.name, &world.domain.name_en] {
+        let own = [world.domain.name.as_str(), world.domain.name_en.as_str()];
+        // «Сколько в офисе столов?», where no room is called so.
+        for name in own.into_iter().chain(set!("PerhapsBuilding").iter().copied()) {
             if name.is_empty() || !self.nouns.find(name).is_empty() {
                 continue;
             }

@@ -53,6 +53,8 @@ pub struct Memory {
     pub(super) ordered: Option<Ordered>,
     /// Where the person has said to be.
     pub(super) person: Option<Entity>,
+    /// The words in which the person has told where it is, where these come to no place.
+    pub(super) astray: Option<String>,
     /// Where the robot was when it was first told something, or was last told to bring something: with the person.
     pub(super) called_from: Option<Thing>,
     /// Where the robot was when it was last told something.
@@ -214,13 +216,30 @@ impl Memory {
             return;
         }
         self.last.clone_from(&answer.things);
+        let told = answer.topic.iter().filter(|t| !answer.things.contains(t));
+        let told: Vec<Thing> = told.copied().collect();
+        // «Где чашка?» of two, of which both were told: «Красная» tells which one was meant.
+        let candidates = match &answer.query {
+            Query::Where(_) => answer.things.clone(),
+            _ => told.clone(),
+        };
+        if let Query::Where(noun) | Query::RoomOf(noun) = &answer.query
+            && noun.means_one()
+            && candidates.len() > 1
+        {
+            self.is_plural = true;
+            self.pending = Some(Pending {
+                query: answer.query.clone(),
+                language: answer.language,
+                reference: noun.text.clone(),
+                candidates,
+            });
+        }
         // "How far is the toolbox from the battery? Which of them is higher up?"
         if answer.things.is_empty() {
             self.last.clone_from(&answer.compared);
         }
         // "Where do the doors lead? Which of them is wider?", "What do the books lie on? Where are they?"
-        let told = answer.topic.iter().filter(|t| !answer.things.contains(t));
-        let told: Vec<Thing> = told.copied().collect();
         let keeps = match &answer.query {
             Query::Leads(_) => true,
             query => is_of_whereabouts(query) && answer.things.len() < 2 && told.len() > 1,
@@ -367,6 +386,10 @@ impl Exchange {
             query if is_of_whereabouts(query) && plural && others().count() > 1 => {
                 let topics = others().chain(found).collect();
                 Self { topics, listed: others().collect(), ..Self::default() }
+            }
+            // "Which room is the juice in?" of two: "it" is neither of them.
+            Query::RoomOf(noun) if noun.means_one() && others().count() > 1 => {
+                Self { listed: others().collect(), aside: found.collect(), ..Self::default() }
             }
             // "What is the lamp on?" goes on being about the lamp.
             Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {

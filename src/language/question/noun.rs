@@ -252,6 +252,13 @@ impl Noun {
         self.best.is_none() && self.count.is_some_and(|n| n != 1)
     }
 
+    /// Whether one thing is meant, by its words: "the cup".
+    pub(super) fn means_one(&self) -> bool {
+        let several = self.plural || self.all || self.indefinite || self.count.is_some();
+        let told = self.best.is_some() || self.rank.is_some() || self.head.things.is_some();
+        !several && !told
+    }
+
     /// A noun that this one names beside itself, with a number that tells nothing there: "nearest to the 5 beds". Of what
     /// a room has the number counts, and "between the two doors" names both.
     pub(super) fn idle_count(&self) -> Option<&Self> {

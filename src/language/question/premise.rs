@@ -3,6 +3,7 @@
 //! Invariant: a place that was told takes the robot's where a question counts from here, and nothing else.
 
 use super::grammar::{Item, Sentence};
+use super::lexicon::{Extension, KindId};
 use super::mark::Mark;
 use super::query::Extreme;
 use super::{
@@ -10,7 +11,9 @@ use super::{
     opening, several,
 };
 use crate::command::has_verb;
+use crate::map::Entity;
 use crate::sets::{Set, set};
+use crate::units::InOrder as _;
 use crate::words::{Case, Language, is_first_person, word_keys, word_ranges};
 
 /// What may stand beside.
@@ -95,7 +98,7 @@ impl Asker<'_> {
     fn stay(&self, text: &str) -> Option<Noun> {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        let (mut me, mut place) = (false, None);
+        let (mut me, mut places) = (false, Vec::new());
         for item in sentence.items() {
             match item {
                 Item::Noun(phrase) if phrase.person == Some(Mark::Me) => me = true,
@@ -113,7 +116,7 @@ impl Asker<'_> {
                         return None;
                     }
                 }
-                Item::Place { rel, nouns, either: false } if place.is_none() => {
+                Item::Place { rel, nouns, either: false } => {
                     let here = matches!(rel, Rel::In | Rel::On | Rel::At | Rel::NextTo | Rel::Near);
                     let [phrase] = &nouns[..] else { return None };
                     let goes = rel == Rel::To && self.is_room(&phrase.noun);
@@ -130,12 +133,81 @@ impl Asker<'_> {
                     {
                         return None;
                     }
-                    place = Some(phrase.noun.clone());
+                    places.push((rel, phrase.noun.clone()));
                 }
                 _ => return None,
             }
         }
-        place.filter(|_| me)
+        self.one_place(places).filter(|_| me)
+    }
+
+    /// One place of all that a person tells of where it is: "at the counter upstairs", "in the kitchen by the sink". A thing
+    /// stands in the room, and the room on the storey, whichever is told first; of two rooms neither is meant.
+    fn one_place(&self, mut places: Vec<(Rel, Noun)>) -> Option<Noun> {
+        let rank = |noun: &Noun| match (self.is_storey(noun), self.is_room(noun)) {
+            (true, _) => 2,
+            (_, true) => 1,
+            _ => 0,
+        };
+        places.order_by_key(|(_, noun)| rank(noun));
+        let alike = places.windows(2).any(|two| rank(&two[0].1) == rank(&two[1].1));
+        let (_, mut place) = places.first().cloned().filter(|_| !alike)?;
+        for (_, within) in places.into_iter().skip(1) {
+            // A room of its own name is where it is.
+            let anchors = vec![within];
+            place.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
+        }
+        Some(place)
+    }
+
+    fn is_storey(&self, noun: &Noun) -> bool {
+        let named = |e: &Entity| matches!(e, Entity::Map(_));
+        let storeys = |k: &KindId| self.mind.lexicon.kind(*k).extension == Extension::Storeys;
+        noun.head.named.iter().any(named) || noun.head.kinds.iter().any(storeys)
+    }
+
+    /// Whether a part of a line tells where the person is, in words that come to no place: "I'm next to the blorb". What counts
+    /// from the person is then counted from nowhere.
+    pub(super) fn is_astray(&self, text: &str) -> bool {
+        if text.trim_end().ends_with('?') || several::asks_outright(text) {
+            return false;
+        }
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
+        let me = |item: &Item| match item {
+            Item::Noun(phrase) => phrase.person == Some(Mark::Me),
+            Item::Mark(mark) => *mark == Mark::Me,
+            Item::Unknown(words) => {
+                sentence.keys[words.clone()].iter().any(|key| is_first_person(key))
+            }
+            _ => false,
+        };
+        let Some(first) = items.iter().position(me) else { return false };
+        // What the person does or has there tells nothing of where it is: "I left it in the kitchen".
+        let stays = |item: &Item| match item {
+            Item::Mark(
+                Mark::Be | Mark::And | Mark::Filler | Mark::Sit | Mark::LieDown | Mark::The,
+            ) => true,
+            Item::Unknown(words) => sentence.keys[words.clone()]
+                .iter()
+                .all(|key| key.ends_with("ing") || SMALL.contains(&&**key) || is_first_person(key)),
+            item => me(item),
+        };
+        let rest = &items[first..];
+        let behind = rest.iter().skip_while(|item| stays(item)).collect::<Vec<_>>();
+        let here = |rel: &Rel| matches!(rel, Rel::In | Rel::On | Rel::At | Rel::NextTo | Rel::Near);
+        match behind[..] {
+            [Item::Place { rel, nouns, .. }, ..] => {
+                here(rel) && nouns.iter().all(|p| p.pronoun.is_none() && p.person.is_none())
+            }
+            // "I'm in a hurry" is no place, "I'm by the blorb" is one that nothing knows.
+            [Item::Link(rel), Item::Mark(Mark::The), Item::Unknown(_), ..] => here(rel),
+            [Item::Link(rel), Item::Unknown(_), ..] => {
+                here(rel) && sentence.language == Language::Russian
+            }
+            _ => false,
+        }
     }
 
     /// Notes where the person is, for "there" and "here", and for what is asked next.
@@ -145,8 +217,15 @@ impl Asker<'_> {
             memory.mention(&[only]);
             if let Thing::Entity(place) = only {
                 memory.person = Some(place);
+                memory.astray = None;
             }
         }
+    }
+
+    /// Notes that the person told in these words where it is, and that nothing knows where that is.
+    pub(super) fn lose_person(text: &str, memory: &mut Memory) {
+        memory.person = None;
+        memory.astray = Some(text.trim_end_matches(['.', '!', ',', ' ']).to_owned());
     }
 
     /// «Я сейчас на кухне.»: a line of no more than where the person is.
@@ -242,6 +321,12 @@ impl Query {
             sought.restrictions.push(restriction);
         }
         true
+    }
+
+    /// Whether a question counts from where the person is.
+    pub(super) fn counts_from_here(&self) -> bool {
+        let here = Noun::of(vec![Thing::Robot]);
+        self.clone().asked_at(&here) != *self
     }
 
     /// The same question asked from a place.

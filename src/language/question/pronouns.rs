@@ -92,8 +92,19 @@ impl Knowledge<'_> {
     /// What one word in the singular may mean of several: "it" after a list, "that one". Where they are told by name one
     /// by one, all of them are.
     pub(super) fn contested(&self, query: &Query) -> Option<Doubt> {
-        if matches!(query, Query::Where(_) | Query::RoomOf(_) | Query::Several(_)) {
-            return None;
+        if let Some(told) = self.memory.astray.as_ref().filter(|_| query.counts_from_here()) {
+            return Some(Doubt::Astray { told: told.clone() });
+        }
+        if let Some(doubt) = self.is_point_not_room(query) {
+            return Some(doubt);
+        }
+        // So many are told one by one.
+        const FEW: usize = 12;
+        let few = |noun: &Noun| noun.head.things.as_ref().is_none_or(|things| things.len() <= FEW);
+        match query {
+            Query::Where(noun) | Query::RoomOf(noun) if few(noun) => return None,
+            Query::Several(_) => return None,
+            _ => {}
         }
         let mut doubt = None;
         let single = |noun: &Noun| {

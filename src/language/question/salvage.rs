@@ -18,6 +18,8 @@ use crate::words::{Language, word_keys, word_ranges};
 struct Told {
     /// Where the person says to be.
     place: Option<Noun>,
+    /// The words in which it is told where the person is, where these come to no place.
+    astray: Option<String>,
     /// What they name.
     named: Named,
 }
@@ -55,7 +57,7 @@ impl Asker<'_> {
             part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes
         };
         let any_marked = (0..parts.len()).any(marked);
-        let mut doubted = None;
+        let (mut doubted, mut untold) = (None, None);
         for (from, to) in spans {
             if any_marked && !(from..=to).any(marked) {
                 continue;
@@ -100,7 +102,7 @@ impl Asker<'_> {
                 if asked.len() == text.trim().len() && !whole || !(self.asks(asked) || claimed) {
                     continue;
                 }
-                let Some(told) = self.told_aside(&aside, memory) else { break };
+                let Some(told) = self.told_aside(&aside, asked, memory) else { break };
                 // "Is there a mug anywhere else?" without its "is" is another question.
                 if self.says_something(within) || !self.asks_of_something(asked) {
                     continue;
@@ -127,50 +129,68 @@ impl Asker<'_> {
                 }
                 let mut heard = memory.clone();
                 told.named.heard(&mut heard);
+                if let Some(words) = &told.astray {
+                    Self::lose_person(words, &mut heard);
+                }
                 if let Some(place) = &told.place {
                     self.hear_of_place(place, &mut heard);
                 }
-                match self.answer_at(told.place.as_ref(), asked, language, &heard) {
+                // "… which bins do we have, and where are they?"
+                let placed = told.place.is_some();
+                let parts = || self.each_part(asked, language, &mut heard.clone());
+                let answered = match (!placed).then(parts).flatten() {
+                    Some(Ok(answer)) => Ok(answer),
+                    _ => self.answer_at(told.place.as_ref(), asked, language, &heard),
+                };
+                match answered {
                     // What was never seen is no doubt of the words.
                     Ok(answer)
                         if answer.said == Said::Unknown
-                            && !matches!(answer.query, Query::LastSeen(_)) => {}
+                            && !matches!(answer.query, Query::LastSeen(_)) =>
+                    {
+                        if matches!(answer.query, Query::Property { .. }) {
+                            untold.get_or_insert(answer.understood_as(asked, language));
+                        }
+                    }
                     // A claim that somebody makes is true or not.
                     Ok(answer)
                         if claimed
                             && !self.asks(asked)
                             && !matches!(answer.said, Said::Yes | Said::No) => {}
-                    Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
+                    Ok(answer) => match self.heeding(&aside, answer, &heard) {
+                        Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
+                        Err(doubt) => doubted = doubted.or(Some(Box::new((doubt, None)))),
+                    },
                     Err(unanswered) if self.is_understood(&unanswered.0) => {
                         doubted.get_or_insert(unanswered);
                     }
-                    // "… which bins do we have, and where are they?"
-                    Err(_) => match self.each_part(asked, language, &mut heard) {
-                        Some(Ok(answer)) if told.place.is_none() => {
-                            return Some(Ok(answer.understood_as(asked, language)));
-                        }
-                        _ => {}
-                    },
+                    Err(_) => {}
                 }
             }
         }
-        doubted.map(Err)
+        doubted.map(Err).or(untold.map(Ok))
     }
 
     /// Whether a doubt is none of the words: they are understood, and the map has several such things, or none.
     fn is_understood(&self, doubt: &Doubt) -> bool {
         match doubt {
-            Doubt::Ambiguous { .. } => true,
+            Doubt::Ambiguous { .. } | Doubt::NoneSuch { .. } => true,
             Doubt::Unknown { reference, .. } => self.is_word(reference),
             _ => false,
         }
     }
 
     /// What is told in what is left aside; none where it does more than tell.
-    fn told_aside(&self, aside: &[&str], memory: &Memory) -> Option<Told> {
+    fn told_aside(&self, aside: &[&str], asked: &str, memory: &Memory) -> Option<Told> {
         let mut told = Told::default();
         for text in aside {
             for (from, to) in parts(text) {
+                // "Which is closer to the pantry, …?": no clause stands before it that it could go on from.
+                let begins = std::ptr::eq(*text, aside[0]) && from == 0;
+                let asks = |key: &String| set!("AskingWord").contains(&key.as_str());
+                if begins && word_keys(&text[..to]).first().is_some_and(asks) {
+                    return None;
+                }
                 // «Мне сказали, что тостер сломался, где он?»: what somebody says is told, and asks for nothing.
                 let part = match is_reported(&word_keys(&text[..from])) {
                     true => behind_joint(&text[from..to]),
@@ -179,7 +199,13 @@ impl Asker<'_> {
                 match self.premise(part) {
                     Some(place) if told.place.is_none() => told.place = Some(place),
                     Some(_) => return None,
-                    None => told.named.add(self.names_only(part, memory)?),
+                    None if self.narrows(part, asked) => return None,
+                    None => {
+                        told.named.add(self.names_only(part, memory)?);
+                        if self.is_astray(part) {
+                            told.astray = Some(part.to_owned());
+                        }
+                    }
                 }
             }
         }

@@ -5,12 +5,12 @@ use super::mark::{Mark, Pronoun};
 use super::query::Denial;
 use super::salvage::{goes_on, is_reported};
 use super::{
-    Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Thing, Unanswered, opening, premise,
-    several,
+    Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Restriction, Thing, Unanswered,
+    opening, premise, several, vocabulary,
 };
 use crate::command::is_too_long;
 use crate::sets::{Set, set};
-use crate::words::{Language, word_keys};
+use crate::words::{Language, word_keys, word_ranges};
 
 /// Whether a question was understood, and means several things or one that the map has not.
 fn lacks_a_thing(doubt: &Doubt) -> bool {
@@ -30,6 +30,10 @@ impl Asker<'_> {
             return None;
         }
         let parts = several::parts(text)?;
+        // "I parked by the gate. Is there a car, and where?": what is told before is no part of what is asked.
+        if parts.iter().any(|part| several::sentences(part).len() > 1) || self.limits(parts[0]) {
+            return None;
+        }
         let mut after = memory.clone();
         let mut answers = Vec::new();
         let last = parts.last().copied().unwrap_or_default();
@@ -281,8 +285,8 @@ impl Asker<'_> {
                 behind = Some(told);
                 continue;
             }
-            // «Где ты? Подробно»: a word or two belong to what is asked.
-            if word_keys(told).len() < 3 {
+            // «Где ты? Подробно»: a word or two belong to what is asked, but "It leaks" is a clause.
+            if word_keys(told).len() < 3 && self.pronouns(told).is_empty() {
                 return None;
             }
             self.names_only(told, memory)?;
@@ -303,10 +307,10 @@ impl Asker<'_> {
         }
         let mut after = memory.clone();
         let mut answers = Vec::new();
-        let mut place = None;
+        let (mut place, mut told) = (None, Vec::new());
         for part in before {
-            if let Some(told) = self.premise(part) {
-                place = Some(told);
+            if let Some(stay) = self.premise(part) {
+                place = Some(stay);
                 continue;
             }
             match self.answer(part, language, &after) {
@@ -314,7 +318,18 @@ impl Asker<'_> {
                     after.learn(&answer);
                     answers.push(answer);
                 }
-                _ => self.hear_of(part, &mut after),
+                // "I only care about the kitchen. How many windows are there?"
+                _ if self.narrows(part, last) => {
+                    let doubt = Doubt::unheeded(part);
+                    return Some(Err(self.knowledge(language, memory).unanswered(doubt)));
+                }
+                _ => {
+                    self.hear_of(part, &mut after);
+                    if self.is_astray(part) {
+                        Self::lose_person(part, &mut after);
+                    }
+                    told.push(*part);
+                }
             }
         }
         if let Some(place) = &place
@@ -335,9 +350,21 @@ impl Asker<'_> {
                 return None;
             }
             self.hear_of_place(place, &mut after);
+            // Which of several it is was not said.
+            if after.person.is_none() {
+                Self::lose_person(&place.text, &mut after);
+            }
         }
-        match self.ask(last, &mut after) {
+        let meant = self.with_one(last, &told);
+        match self.ask(meant.as_deref().unwrap_or(last), &mut after) {
             Ok(answer) => {
+                let answer = match self.heeding(&told, answer, &after) {
+                    Ok(answer) => answer,
+                    Err(doubt) => {
+                        return Some(Err(self.knowledge(language, memory).unanswered(doubt)));
+                    }
+                };
+                after.learn(&answer);
                 answers.push(answer);
                 *memory = after;
                 Some(Ok(match answers.len() {
@@ -345,12 +372,53 @@ impl Asker<'_> {
                     _ => Answer::joined(answers, language),
                 }))
             }
+            // Where the person is was told, and is not known.
+            Err(unanswered) if after.astray.is_some() => {
+                *memory = after;
+                Some(Err(unanswered))
+            }
             Err(unanswered) if unanswered.doubt.kind() == "ambiguous" && answers.is_empty() => {
                 *memory = after;
                 Some(Err(unanswered))
             }
             Err(_) => None,
         }
+    }
+
+    /// "I can't find a pencil, and the crossword is due. Where is one?": with the one thing that was told of as one of its kind.
+    fn with_one(&self, asked: &str, told: &[&str]) -> Option<String> {
+        let (words, keys) = (word_ranges(asked), word_keys(asked));
+        let ones = (0..keys.len()).filter(|n| keys[*n] == "one").collect::<Vec<_>>();
+        let [at] = ones[..] else { return None };
+        // "Which one …?", "the red one", "one of them"
+        let plain = at > 0 && keys.get(at + 1).is_none_or(|key| key != "of");
+        let verb = |key: &str| {
+            let said = vocabulary::longest(&[key.to_owned()]);
+            matches!(said, Some((_, Mark::Be | Mark::Where | Mark::Exists | Mark::Me | Mark::You)))
+                || set!("FindWord").contains(&key)
+        };
+        if !plain || !verb(&keys[at - 1]) {
+            return None;
+        }
+        let mut kinds = Vec::new();
+        for part in told {
+            let text = self.plain(part);
+            let sentence = Sentence::new(&text, &self.mind.lexicon);
+            for item in sentence.items() {
+                if let Item::Noun(phrase) = item
+                    && phrase.person.is_none()
+                    && phrase.pronoun.is_none()
+                    && phrase.noun.indefinite
+                    && !phrase.noun.plural
+                {
+                    kinds.push(sentence.said(&phrase.words).to_owned());
+                }
+            }
+        }
+        let [kind] = &kinds[..] else { return None };
+        let article = word_keys(kind).first().is_some_and(|key| set!("Article").contains(&&**key));
+        let kind = if article { kind.clone() } else { format!("a {kind}") };
+        Some(format!("{}{kind}{}", &asked[..words[at].start], &asked[words[at].end..]))
     }
 
     /// «Хочу пить, где чашки?»: what is asked stands behind the comma; before it nothing limits the question.
@@ -371,6 +439,7 @@ impl Asker<'_> {
             || is_reported(&word_keys(told))
             || self.tells_how_much(told)
             || self.limits(told)
+            || self.narrows(told, asked)
             // «А в той, что меньше?»
             || goes_on(told, asked)
             || (premise::says_here(asked) && self.tells_of_place(told))
@@ -379,7 +448,12 @@ impl Asker<'_> {
         }
         let mut after = memory.clone();
         self.hear_of(told, &mut after);
+        if self.is_astray(told) {
+            Self::lose_person(told, &mut after);
+        }
         let answer = self.ask(asked.trim(), &mut after).ok()?;
+        let answer = self.heeding(&[told], answer, &after).ok()?;
+        after.learn(&answer);
         *memory = after;
         Some(answer)
     }
@@ -402,8 +476,24 @@ impl Asker<'_> {
     pub fn hear_of(&self, text: &str, memory: &mut Memory) {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let (mut nouns, mut places) = (Vec::new(), Vec::new());
+        let (mut nouns, mut places) = (Vec::<Noun>::new(), Vec::new());
+        let mut behind_noun = false;
         for item in sentence.items() {
+            // "The television in the bedroom broke": that one, where there is one there.
+            if let (true, Item::Place { rel: rel @ (Rel::In | Rel::On), nouns: anchors, .. }) =
+                (behind_noun, &item)
+                && let Some(noun) = nouns.last_mut()
+                && anchors.iter().all(|anchor| anchor.person.is_none() && anchor.pronoun.is_none())
+            {
+                let anchors = anchors.iter().map(|anchor| anchor.noun.clone()).collect();
+                let mut placed = noun.clone();
+                placed.restrictions.push(Restriction { rel: *rel, anchors, negated: false });
+                let knowledge = self.knowledge(sentence.language, memory);
+                if knowledge.find(&placed, true).is_ok_and(|found| !found.is_empty()) {
+                    *noun = placed;
+                }
+            }
+            behind_noun = matches!(&item, Item::Noun(phrase) if phrase.person.is_none());
             match item {
                 Item::Noun(phrase) if phrase.person.is_none() => nouns.push(phrase.noun),
                 Item::Place { rel: Rel::In | Rel::On | Rel::At | Rel::To, nouns, .. } => {

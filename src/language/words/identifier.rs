@@ -30,7 +30,8 @@ pub(crate) fn spoken(name: &str) -> Vec<String> {
         said.extend([numbered(&head_last), head_last]);
         // "The charger of tinyRobot 1", «зарядка tinyRobot 1»
         let [owner @ .., head] = words else { continue };
-        let of_owner = owner.last().is_some_and(|part| is_number(part)).then(|| owner.join(" "));
+        let numbered_owner = |part: &&str| part.ends_with(|c: char| c.is_ascii_digit());
+        let of_owner = owner.last().filter(|part| numbered_owner(part)).map(|_| owner.join(" "));
         said.extend(of_owner.iter().map(|owner| format!("{head} of {owner}")));
         let russian = match of_owner {
             Some(owner) => russian_of(head).map(|head| format!("{head} {owner}")),
@@ -95,6 +96,11 @@ mod tests {
             "tinyRobot_1_charger",
             &["charger of tinyrobot 1", "зарядка tinyrobot 1"],
             &["tinyrobot 1", "charger"],
+        );
+        check(
+            "tinyRobot2_charger",
+            &["charger of tinyrobot2", "зарядка tinyrobot2"],
+            &["tinyrobot2"],
         );
         for name in ["hardware_2", "Office chair", "Room-B", "", "_", "1_2"] {
             assert!(spoken(name).is_empty(), "{name}: {:?}", spoken(name));

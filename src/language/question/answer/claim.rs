@@ -559,6 +559,7 @@ impl Knowledge<'_> {
     /// The value that a thing has of the property asked about.
     pub(in crate::question) fn own_value(&self, thing: Thing, asked: ValueId) -> Option<String> {
         let values = &self.lexicon().values;
+        let asked = self.asked_of(thing, asked);
         let all = self.values(thing);
         let same = all.iter().find(|(_, v, _)| v.is_some_and(|v| values.is(v, asked)));
         let property = &values.entry(asked).property;

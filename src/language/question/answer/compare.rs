@@ -463,12 +463,17 @@ impl Knowledge<'_> {
         // A place that is not there has nothing to count.
         for noun in of {
             for restriction in &noun.restrictions {
-                for anchor in &restriction.anchors {
+                let named = |a: &&Noun| !self.is_walls(a) && !self.is_floor(a);
+                for anchor in restriction.anchors.iter().filter(named) {
                     self.anchors(restriction, anchor, false)?;
                 }
             }
         }
         let found = [self.find(&of[0], true)?, self.find(&of[1], true)?];
+        // "More paintings than photos", which are one kind here.
+        if found[0] == found[1] && !found[0].is_empty() {
+            return Err(Doubt::not_understood(&of[1].text));
+        }
         let numbers = [found[0].len(), found[1].len()];
         let (fewer, equal) = (extreme == Extreme::Fewest, numbers[0] == numbers[1]);
         let first = if fewer { numbers[0] <= numbers[1] } else { numbers[0] >= numbers[1] };

@@ -8,9 +8,10 @@ use crate::question::knowledge::{Frame, Held, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Denial, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Doubt, Said};
+use crate::sets::set;
 use crate::units::InOrder as _;
 use crate::words::length;
-use crate::words::{Language, enumerate, russian};
+use crate::words::{Language, enumerate, russian, word_keys};
 
 impl Knowledge<'_> {
     pub(super) fn say_found(&self, noun: &Noun) -> Result<Draft, Doubt> {
@@ -193,28 +194,6 @@ impl Knowledge<'_> {
             false if several => format!("{list} open {}", self.name(door)),
             false => format!("{} opens {}", self.name(key), self.name(door)),
         })
-    }
-
-    /// "Is there a lift? Which floors does it go to?": where it stops.
-    fn storeys_of_lift(&self, noun: &Noun) -> Option<Draft> {
-        let storeys = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Storeys;
-        let [place] = &noun.restrictions[..] else { return None };
-        if place.negated || !noun.head.kinds.iter().any(storeys) {
-            return None;
-        }
-        let [cabin] = self.find(place.anchors.first()?, true).ok()?[..] else { return None };
-        let area = cabin.area()?;
-        let lifts = &self.world.domain.lifts;
-        let (_, stops) = lifts.iter().find(|(_, stops)| stops.iter().any(|s| s.area == area))?;
-        let on = |area| self.world.placement(area).map(|(map, _)| Thing::Entity(Entity::Map(map)));
-        let mut maps: Vec<Thing> = stops.iter().filter_map(|stop| on(stop.area)).collect();
-        maps.dedup();
-        let (name, list) = (self.name(cabin), self.list(&maps));
-        let text = match self.is_russian() {
-            true => format!("{name} останавливается здесь: {list}"),
-            false => format!("{name} stops at {list}"),
-        };
-        Some(Draft::new(Said::Found, text).with(maps).about(&[cabin]))
     }
 
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
@@ -481,6 +460,7 @@ impl Knowledge<'_> {
             }
         };
         let said = if number == 0 { Said::Nothing } else { Said::Found };
+        let text = format!("{text}{}", self.within_as_well(noun, &found));
         Ok(Draft { facts, ..Draft::new(said, text).with(found) }
             .about(&anchors)
             .number(number as f64))
@@ -511,6 +491,22 @@ impl Knowledge<'_> {
             let mut things = self.find(noun, true)?;
             self.one_of_each_lift(noun, &mut things);
             found.push(things);
+        }
+        // "Is there another toilet?" has one in mind that was not spoken of.
+        if let ([noun], [things], Denial::None) = (what, &found[..], denial)
+            && noun.other
+            && !noun.head.anything
+            && word_keys(&noun.text).iter().any(|key| set!("Another").contains(&key.as_str()))
+            && let [only] = things[..]
+            && self.find(&Noun { other: false, ..noun.clone() }, true)? == [only]
+        {
+            let (name, place) = (self.name(only), self.restrictions(noun));
+            let text = match self.is_russian() {
+                true if place.is_empty() => format!("нет, есть только {name}"),
+                true => format!("нет, {place} есть только {name}"),
+                false => format!("no, there is only {name} {place}"),
+            };
+            return Ok(Draft::new(Said::No, text.trim_end().to_owned()).with(vec![only]));
         }
         let have = |n: usize| !found[n].is_empty();
         let any = (0..what.len()).any(have);

@@ -3,10 +3,10 @@
 //! Invariant: a passage is told beside doors, never as one.
 
 use super::grouped;
-use crate::map::Entity;
+use crate::map::{Entity, stands};
 use crate::question::knowledge::Knowledge;
 use crate::question::lexicon::Extension;
-use crate::question::query::{Noun, Rel, Thing};
+use crate::question::query::{Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
 use crate::words::enumerate;
 
@@ -36,6 +36,37 @@ impl Knowledge<'_> {
         has(Rel::From) && has(Rel::To)
     }
 
+    /// «Что стоит на раковине?»: what lies within a thing that nothing shuts, where that is asked for which is on it.
+    pub(super) fn within_as_well(&self, noun: &Noun, found: &[Thing]) -> String {
+        let on = |place: &Restriction| place.rel == Rel::On && !place.negated;
+        let Some(at) = noun.restrictions.iter().position(on) else { return String::new() };
+        if noun.best.is_some() || noun.rank.is_some() || noun.other {
+            return String::new();
+        }
+        let holders = self.find(&noun.restrictions[at].anchors[0], true).unwrap_or_default();
+        let mut within = noun.clone();
+        within.restrictions[at].rel = Rel::In;
+        let within = self.find(&within, true).unwrap_or_default();
+        let within: Vec<Thing> = within.into_iter().filter(|t| !found.contains(t)).collect();
+        let holder = |thing: Thing| {
+            let id = self.relations.support_of(thing.replica()?)?;
+            let open = stands(self.world, self.world.replicas.get(&id)?).is_none();
+            // On what bears things as well, as a chest of drawers, is not in it.
+            let has = |wanted| self.world.has_trait(id, wanted);
+            let holder = Thing::Entity(Entity::Replica(id));
+            let holds = open && has("container") && !has("support");
+            (holds && holders.contains(&holder)).then_some(holder)
+        };
+        let told = grouped(&within, holder).into_iter().filter_map(|(holder, things)| {
+            let (place, list) = (self.place(Rel::In, &[holder?]), self.list(&things));
+            Some(match self.is_russian() {
+                true => format!("; {place} {} {list}", self.is(&things)),
+                false => format!("; {list} {} {place}", self.is(&things)),
+            })
+        });
+        told.collect()
+    }
+
     /// Passages beside doors, and what lies inside beside what stands on top.
     pub(super) fn also(&self, noun: &Noun, found: &[Thing]) -> String {
         let is_of = |wanted: Extension| {
@@ -54,7 +85,7 @@ impl Knowledge<'_> {
         let Some(restriction) =
             of_area.filter(|_| doors && noun.filters.is_empty() && !self.leads_both(noun))
         else {
-            return String::new();
+            return self.within_as_well(noun, found);
         };
         let Some(anchor) = restriction.anchors.first() else { return String::new() };
         let Ok(areas) = self.find(anchor, true) else { return String::new() };

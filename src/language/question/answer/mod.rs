@@ -6,6 +6,7 @@ mod each;
 mod found;
 mod kinds;
 mod leading;
+mod lifts;
 mod part;
 mod passing;
 mod place;
@@ -119,7 +120,10 @@ impl Knowledge<'_> {
                 self.surface_is(subject, claims, denial.is_taken())?
             }
             Query::Holds { subject, claims, denial } => {
-                self.say_holds(subject, claims, denial.is_taken())?
+                match self.lift_goes(subject, claims, denial.is_taken())? {
+                    Some(draft) => draft,
+                    None => self.say_holds(subject, claims, denial.is_taken())?,
+                }
             }
             Query::Choice { subject, claims } => self.choose(subject, claims)?,
             Query::Anchor { rel, of, what } => self.anchor(*rel, of, what.as_ref())?,
@@ -202,7 +206,7 @@ impl Knowledge<'_> {
         if let Some(untold) = self.untold(query) {
             draft.text = format!("{}; {untold}", draft.text.trim_end_matches('.'));
         }
-        let draft = self.hedged(query, draft);
+        let draft = self.hedged(query, self.as_measured(query, draft));
         let mut topic = draft.things.clone();
         topic.extend(draft.topic);
         Ok(Answer {

@@ -14,7 +14,7 @@ use crate::words::{Case, enumerate, russian};
 
 impl Knowledge<'_> {
     pub(in crate::question) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
-        let mut found = self.definite(noun)?;
+        let mut found = self.few(noun)?;
         self.one_of_each_lift(noun, &mut found);
         let mut facts = Vec::new();
         if let [only] = found[..] {
@@ -48,6 +48,21 @@ impl Knowledge<'_> {
         let text =
             if self.is_russian() { parts.join("; ") } else { enumerate(&parts, self.language) };
         Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) })
+    }
+
+    /// As [`Knowledge::definite`], but of a few things that are meant alike, all: where each of them is, is soon told.
+    fn few(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
+        const MOST: usize = 5;
+        match self.definite(noun) {
+            Err(Doubt::Ambiguous { candidates, .. })
+                if candidates.len() <= MOST
+                    && candidates.iter().all(|t| t.replica().is_some())
+                    && noun.means_one() =>
+            {
+                Ok(candidates)
+            }
+            other => other,
+        }
     }
 
     /// «Пульт на комоде?» where it is in it; "Is there a playground here?" where the robot's room has none and another has.
@@ -356,7 +371,7 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn room_of(&self, noun: &Noun) -> Result<Draft, Doubt> {
-        let mut found = self.definite(noun)?;
+        let mut found = self.few(noun)?;
         // "Which room is it in?" of a thing and a room that were named asks of the thing.
         if found.iter().any(|thing| thing.area().is_none()) {
             found.retain(|thing| thing.area().is_none());

@@ -3,7 +3,7 @@
 //! Invariant: a property that the map does not give is said to be missing, never guessed.
 
 use super::Draft;
-use crate::map::{DoorStatus, Entity};
+use crate::map::{DoorStatus, Entity, Mark};
 use crate::question::knowledge::{Kept, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Claim, Head, Noun, Rel, Thing};
@@ -270,6 +270,8 @@ impl Knowledge<'_> {
     pub(super) fn told_values(&self, thing: Thing) -> Vec<(Property, Option<ValueId>, String)> {
         let is_id = |text: &str| text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
         let mut values = self.values(thing);
+        let usual = Mark::UsualSize.names().map(Property::of);
+        values.retain(|(property, _, _)| !usual.contains(property));
         values.retain(|(_, _, text)| !is_id(text));
         values
     }

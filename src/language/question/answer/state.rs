@@ -4,9 +4,11 @@
 
 use super::Draft;
 use crate::question::knowledge::Knowledge;
-use crate::question::query::{Noun, Rel, Thing};
+use crate::question::lexicon::{KindId, Meaning};
+use crate::question::query::{Head, Noun, Rel, Thing};
 use crate::question::values::ValueId;
 use crate::question::{Doubt, Said};
+use crate::sets::set;
 use crate::units::InOrder as _;
 use crate::words::enumerate;
 
@@ -19,28 +21,66 @@ impl Knowledge<'_> {
         negated: bool,
     ) -> Result<Draft, Doubt> {
         let found = self.find(subject, true)?;
-        let Some(&first) = found.first() else { return Err(self.none_such(subject)) };
+        if found.is_empty() {
+            return Err(self.none_such(subject));
+        }
         let known: Vec<Thing> =
             found.iter().copied().filter(|t| self.own_value(*t, asked).is_some()).collect();
-        if known.is_empty() {
-            let property = self.lexicon().values.entry(asked).property.clone();
-            return Ok(Draft::new(Said::Unknown, self.no_property(&property, first)).with(found));
-        }
         let lit: Vec<Thing> = known.iter().copied().filter(|t| self.has_value(*t, asked)).collect();
+        // There is light where one lamp is on, and none only where each is off.
+        let is_on = self.lexicon().values.meaning("включённый") == Some(asked);
+        let shining = if is_on { !lit.is_empty() } else { lit.len() < known.len() };
+        let unknown = found.iter().find(|t| !known.contains(t));
+        if let Some(unknown) = unknown.filter(|_| !shining) {
+            let property = self.lexicon().values.entry(asked).property.clone();
+            let shown = known.iter().copied().chain(self.switches_of(subject, asked));
+            let shown: Vec<Thing> = shown.collect();
+            let told = shown.iter().map(|t| self.with_value(*t, asked)).collect::<Vec<_>>();
+            let unsaid = self.no_property(&property, *unknown);
+            let text = match told.is_empty() {
+                true => unsaid,
+                false => format!("{}; {unsaid}", enumerate(&told, self.language)),
+            };
+            let things = if known.is_empty() { found } else { shown };
+            return Ok(Draft::new(Said::Unknown, text).with(things));
+        }
         let yes = lit.is_empty() == negated;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let shown = if lit.is_empty() { &known } else { &lit };
-        let each = |t: &Thing| {
-            let own = self.own_value(*t, asked).unwrap_or_default();
-            match self.is_russian() {
-                true => format!("{} {own}", self.name(*t)),
-                false => format!("{} is {own}", self.name(*t)),
-            }
-        };
+        let each = |t: &Thing| self.with_value(*t, asked);
         let words: Vec<String> = shown.iter().take(8).map(each).collect();
         let text = format!("{head}{}", enumerate(&words, self.language));
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(shown.clone()))
+    }
+
+    /// «Лампа-1 включена»
+    fn with_value(&self, thing: Thing, asked: ValueId) -> String {
+        let own = self.own_value(thing, asked).unwrap_or_default();
+        match self.is_russian() {
+            true => format!("{} {own}", self.name(thing)),
+            false => format!("{} is {own}", self.name(thing)),
+        }
+    }
+
+    /// The light switches where lamps are asked for, as far as the map tells how they stand.
+    fn switches_of(&self, lamps: &Noun, asked: ValueId) -> Vec<Thing> {
+        let kind = |word: &&str| {
+            self.lexicon().nouns.find(word).into_iter().find_map(|hit| match hit.id {
+                Meaning::Kind(kind) => Some(*kind),
+                _ => None,
+            })
+        };
+        let kinds: Vec<KindId> = set!("LightSwitch").iter().filter_map(kind).collect();
+        if kinds.is_empty() || lamps.restrictions.is_empty() {
+            return Vec::new();
+        }
+        let head = Head { kinds, ..Head::default() };
+        let restrictions = lamps.restrictions.clone();
+        let noun = Noun { head, plural: true, restrictions, ..Noun::default() };
+        let mut found = self.find(&noun, true).unwrap_or_default();
+        found.retain(|t| self.own_value(*t, asked).is_some());
+        found
     }
 
     /// Whether nothing is in or on a thing.

@@ -3,10 +3,10 @@
 //! Invariant: an answer all of whose things are in doubt affirms and denies nothing.
 
 use super::Draft;
-use crate::map::Entity;
+use crate::map::{Entity, Mark};
 use crate::question::Said;
 use crate::question::knowledge::Knowledge;
-use crate::question::query::{Query, Thing};
+use crate::question::query::{Dimension, Extreme, Query, Thing};
 use crate::units::InOrder as _;
 use crate::words::enumerate;
 
@@ -39,6 +39,49 @@ const OF_PLACE: [&str; 21] = [
 ];
 
 impl Knowledge<'_> {
+    /// The draft with what nobody measured, where it tells of sizes that are only usual ones.
+    pub(super) fn as_measured(&self, query: &Query, mut draft: Draft) -> Draft {
+        let by_size = |extreme: &Extreme| {
+            matches!(
+                extreme,
+                Extreme::Biggest
+                    | Extreme::Smallest
+                    | Extreme::Tallest
+                    | Extreme::Lowest
+                    | Extreme::Widest
+                    | Extreme::Narrowest
+                    | Extreme::Longest
+                    | Extreme::Shortest
+                    | Extreme::Thickest
+                    | Extreme::Thinnest
+            )
+        };
+        let mut measures = match query {
+            Query::Size { dimension, .. } => *dimension != Dimension::Elevation,
+            Query::SameSize { .. } | Query::Describe(_) => true,
+            Query::Larger { extreme, .. } | Query::WhichMore { extreme, .. } => by_size(extreme),
+            _ => false,
+        };
+        query.clone().each_noun(&mut |noun| {
+            let best = noun.best.as_ref().map(|best| best.extreme);
+            let beyond = noun.beyond.as_ref().map(|(extreme, _)| *extreme);
+            measures |= [best, beyond].iter().flatten().any(by_size) || !noun.sizes.is_empty();
+        });
+        let is_usual = |thing: &Thing| {
+            let object = thing.replica().and_then(|id| self.world.replicas.get(&id));
+            let object = object.and_then(|replica| self.world.objects.get(&replica.object));
+            object.is_some_and(|object| Mark::UsualSize.of(&object.properties).is_some())
+        };
+        if measures && draft.things.iter().chain(&draft.topic).any(is_usual) {
+            let usual = self.pick(
+                "размеры – обычные для таких вещей, на месте их не измеряли",
+                "sizes are the usual ones of such things, not measured on site",
+            );
+            draft.text = format!("{} ({usual})", draft.text.trim_end_matches('.'));
+        }
+        draft
+    }
+
     /// The draft with what is in doubt, where anything is.
     pub(super) fn hedged(&self, query: &Query, mut draft: Draft) -> Draft {
         let is_thing = |thing: &Thing| matches!(thing, Thing::Entity(Entity::Replica(_)));

@@ -16,7 +16,9 @@ use crate::words::Language;
 impl Frame<'_, '_> {
     /// Whether a word of the sentence asks for what the query does not answer.
     pub(super) fn asks_more_than(&self, query: &mut Query) -> bool {
-        self.suffice(query);
+        if self.suffice(query) {
+            return true;
+        }
         self.rank_as_number(query);
         let told = Told::of(query);
         let query = &*query;
@@ -359,17 +361,21 @@ impl Frame<'_, '_> {
         !asked.is_empty()
     }
 
-    /// «Хватит ли шести стульев?», "Are there enough chairs for six?": so many or more.
-    fn suffice(&self, query: &mut Query) {
+    /// «Хватит ли шести стульев?», "Are there enough chairs for six?": so many or more. Whether for how many is not said.
+    fn suffice(&self, query: &mut Query) -> bool {
         let keys = &self.sentence.keys;
         let asks = |key: &String| set!("Enough").contains(&key.as_str());
-        if keys.iter().any(asks) {
-            query.each_noun(&mut |noun| {
-                if noun.count.is_some() && noun.quantity == Quantity::Exactly {
-                    noun.quantity = Quantity::AtLeast;
-                }
-            });
+        if !keys.iter().any(asks) {
+            return false;
         }
+        let mut counted = false;
+        query.each_noun(&mut |noun| {
+            counted |= noun.count.is_some();
+            if noun.count.is_some() && noun.quantity == Quantity::Exactly {
+                noun.quantity = Quantity::AtLeast;
+            }
+        });
+        !counted && matches!(query, Query::Exists { .. })
     }
 
     /// "Is there a second television?": at least two of them.

@@ -132,6 +132,10 @@ impl Frame<'_, '_> {
             });
             return Some(Query::MoreOf { of, extreme, asks, by: self.has(Mark::HowMany) });
         }
+        if let Some([first, second]) = self.here_and_there(at) {
+            let of = [within(&first, None), within(&second, None)];
+            return Some(Query::MoreOf { of, extreme, asks, by: self.has(Mark::HowMany) });
+        }
         let of = match (&counted[..], &places[..], &rooms[..]) {
             ([what], [first, second], _) | ([what], [], [first, second]) => {
                 [within(&what.noun, Some(first)), within(&what.noun, Some(second))]
@@ -147,6 +151,54 @@ impl Frame<'_, '_> {
             _ => return None,
         };
         Some(Query::MoreOf { of, extreme, asks, by: self.has(Mark::HowMany) })
+    }
+
+    /// "Are there more pictures on the walls of the bathroom than of the kitchen?": what is counted, with the places on either
+    /// side of the "than". A place behind it takes the place of its like before it, and of all that narrows that one.
+    fn here_and_there(&self, more: usize) -> Option<[Noun; 2]> {
+        let than = self.than_behind(more)?;
+        let (before, behind): (Vec<&Spot>, Vec<&Spot>) =
+            self.spots.iter().partition(|spot| spot.at < than);
+        let (named, bare): (Vec<&Subject>, Vec<&Subject>) =
+            self.nouns.iter().partition(|subject| subject.at < than);
+        let [what] = &named[..] else { return None };
+        if self.is_area(&what.noun) || before.is_empty() || self.spots.iter().any(|s| s.either) {
+            return None;
+        }
+        let like = |area: bool| before.iter().rposition(|s| self.is_area(&s.nouns[0]) == area);
+        // "… on the dresser than the sofa": on the sofa.
+        let bare = match (&bare[..], &behind[..]) {
+            ([], [_, ..]) => None,
+            ([only], []) if !only.noun.plural => {
+                let rel = before[like(self.is_area(&only.noun))?].rel;
+                let nouns = vec![only.noun.clone()];
+                Some(Spot { rel, nouns, either: false, at: only.at, negated: only.negated })
+            }
+            _ => return None,
+        };
+        let behind: Vec<&Spot> = bare.iter().chain(behind).collect();
+        let area = self.is_area(&behind[0].nouns[0]);
+        let at = like(area)?;
+        // A room leaves where in a room; another thing is in a room of its own.
+        let kept = before[at + 1..].iter().filter(|s| area && !self.is_area(&s.nouns[0]));
+        let there = before[..at].iter().chain(&behind).chain(kept);
+        let placed = |spots: Vec<&Spot>| {
+            let mut noun = what.noun.clone();
+            spots.into_iter().for_each(|spot| self.attach(&mut noun, spot));
+            noun
+        };
+        Some([placed(before.clone()), placed(there.copied().collect())])
+    }
+
+    /// Where a comparative's "than" stands.
+    fn than_behind(&self, more: usize) -> Option<usize> {
+        let russian = self.sentence.keys.iter().any(|key| key == "чем");
+        let than = |mark: &Mark| match mark {
+            Mark::Than => true,
+            Mark::What => russian,
+            _ => false,
+        };
+        self.marks.iter().find(|(mark, at)| *at > more && than(mark)).map(|(_, at)| *at)
     }
 
     pub(super) fn compared(&self) -> Option<Query> {

@@ -263,6 +263,8 @@ pub(super) fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         Mark::Sit | Mark::LieDown | Mark::PutDown => {
             !matches!(query, Q::WhereAreYou(_) | Q::LastSeen(_) | Q::Before(_))
         }
+        // «Кто оставил биту в спальне?» does not ask whether it is there.
+        Mark::Who => !matches!(query, Q::Holds { .. }),
         Mark::Kinds => matches!(query, Q::Kinds { .. }),
         Mark::Hold => matches!(query, Q::WhatDoYouHold | Q::Holds { .. }),
         Mark::Differ | Mark::Alike => false,

@@ -570,7 +570,15 @@ impl<'t> Sentence<'t> {
             text: self.said(&words).to_owned(),
             ..Noun::default()
         };
-        if names && (self.language == Language::Russian || found.is_storey) {
+        // «лифт lift_24»: a name in other letters is in no case, and so governed by nothing.
+        let russian = self.language == Language::Russian;
+        let apposed = russian
+            && found.is_area
+            && !found.is_storey
+            && self.text[self.words[start].start..self.words[*to as usize - 1].end].is_ascii()
+            && next.named.iter().all(|entity| matches!(entity, Entity::Area(_)))
+            && !next.named.is_empty();
+        if names && (russian || found.is_storey) || apposed {
             return Ok((after, Some(next), None));
         }
         match self.language {

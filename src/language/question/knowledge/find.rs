@@ -95,6 +95,10 @@ impl Knowledge<'_> {
                 let rooms: Vec<Thing> = self.rooms_spoken_of();
                 found.retain(|t| !rooms.contains(t));
             }
+            // "Where is the other TV?", where each of them was spoken of.
+            if found.is_empty() && before > 0 && !noun.head.anything {
+                return Err(Doubt::NoReferent { word: noun.text.clone() });
+            }
         }
         for sort in &noun.also {
             let own: HashSet<Thing> = self.base(sort).into_iter().collect();

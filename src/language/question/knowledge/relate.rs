@@ -20,6 +20,15 @@ impl Knowledge<'_> {
             (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => {
                 self.on_map(map)
             }
+            // The lifts that stop at a storey, wherever one enters them.
+            (Rel::To, Thing::Entity(Entity::Map(map))) => {
+                let stops = self.world.domain.lifts.iter().map(|(_, stops)| stops);
+                let there = |stop: &crate::map::LiftStop| {
+                    self.world.placement(stop.area).is_some_and(|(own, _)| own == map)
+                };
+                let stops = stops.filter(|stops| stops.iter().any(there)).flatten();
+                stops.map(|stop| Thing::Entity(Entity::Area(stop.area))).collect()
+            }
             // The ways out of a storey, or of the building.
             (Rel::From, Thing::Entity(Entity::Map(map))) => {
                 let mut found = self.on_map(map);

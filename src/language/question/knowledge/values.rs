@@ -6,7 +6,8 @@ use super::{Knowledge, KnownOpening};
 use crate::map::{DoorKind, DoorStatus, Entity, Properties};
 use crate::question::query::{Filter, Rel, Thing};
 use crate::question::values::{Property, ValueId};
-use crate::units::{DoorId, Gather as _, InOrder as _};
+use crate::sets::set;
+use crate::units::{DoorId, Gather as _, InOrder as _, name_key};
 use std::collections::BTreeSet;
 
 impl Knowledge<'_> {
@@ -73,8 +74,28 @@ impl Knowledge<'_> {
         }
     }
 
+    /// What is asked of a thing by a value: a tap that is closed is off, as the map says of it.
+    pub(in crate::question) fn asked_of(&self, thing: Thing, wanted: ValueId) -> ValueId {
+        let values = &self.lexicon().values;
+        let meant = match values.entry(wanted).russian.as_str() {
+            "открытый" => values.meaning("включённый"),
+            "закрытый" => values.meaning("выключенный"),
+            _ => None,
+        };
+        let is_tap = || {
+            let kind = self.kind_name(thing).unwrap_or_default();
+            set!("Tap").contains(&name_key(&kind).as_str())
+        };
+        let says = |value: ValueId| {
+            let own = self.values(thing);
+            own.iter().any(|(_, own, _)| own.is_some_and(|v| values.answer_one_question(v, value)))
+        };
+        meant.filter(|meant| is_tap() && says(*meant) && !says(wanted)).unwrap_or(wanted)
+    }
+
     pub(in crate::question) fn has_value(&self, thing: Thing, wanted: ValueId) -> bool {
         let values = &self.lexicon().values;
+        let wanted = self.asked_of(thing, wanted);
         let own = self.values(thing);
         if own.iter().any(|(_, value, _)| value.is_some_and(|v| values.is(v, wanted))) {
             return true;
@@ -113,11 +134,12 @@ impl Knowledge<'_> {
     /// Whether the map tells of a thing what a filter asks.
     pub(in crate::question) fn tells(&self, thing: Thing, filter: &Filter) -> bool {
         let values = &self.lexicon().values;
-        let entry = values.entry(filter.value);
+        let asked = self.asked_of(thing, filter.value);
+        let entry = values.entry(asked);
         if entry.is_emptiness() || thing.replica().is_none() {
             return true;
         }
-        let same = |own: ValueId| values.answer_one_question(own, filter.value);
+        let same = |own: ValueId| values.answer_one_question(own, asked);
         // Cleanliness stands under a name of its own and is a state all the same.
         let told = |(property, own, _): &(Property, Option<ValueId>, String)| {
             own.map_or(*property == entry.property, same)

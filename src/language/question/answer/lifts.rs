@@ -1,0 +1,79 @@
+//! Lifts: at which storeys they stop.
+//!
+//! Invariant: a lift has an Area on every storey where it stops, and is asked of by any of them.
+
+use super::Draft;
+use crate::map::Entity;
+use crate::question::knowledge::Knowledge;
+use crate::question::lexicon::{Extension, KindId};
+use crate::question::query::{Claim, Noun, Rel, Thing};
+use crate::question::{Doubt, Said};
+
+impl Knowledge<'_> {
+    /// "Is there a lift? Which floors does it go to?": where it stops.
+    pub(super) fn storeys_of_lift(&self, noun: &Noun) -> Option<Draft> {
+        let storeys = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Storeys;
+        let [place] = &noun.restrictions[..] else { return None };
+        if place.negated || !noun.head.kinds.iter().any(storeys) {
+            return None;
+        }
+        let [cabin] = self.find(place.anchors.first()?, true).ok()?[..] else { return None };
+        let maps = self.stops_of(cabin)?;
+        let text = self.stops_at(cabin, &maps);
+        Some(Draft::new(Said::Found, text).with(maps).about(&[cabin]))
+    }
+
+    /// "Does the lift go to the second floor?", «Останавливается ли лифт на обоих этажах?»: whether it stops there.
+    pub(super) fn lift_goes(
+        &self,
+        subject: &Noun,
+        claims: &[Claim],
+        negated: bool,
+    ) -> Result<Option<Draft>, Doubt> {
+        let [Claim::Related(place)] = claims else { return Ok(None) };
+        let whither = matches!(place.rel, Rel::To | Rel::Near | Rel::NextTo | Rel::At | Rel::On);
+        let is_storey = |thing: &Thing| matches!(thing, Thing::Entity(Entity::Map(_)));
+        let [anchor] = &place.anchors[..] else { return Ok(None) };
+        let storeys = self.find(anchor, true).unwrap_or_default();
+        if !whither || storeys.is_empty() || !storeys.iter().all(is_storey) {
+            return Ok(None);
+        }
+        let all = self.find(subject, true).unwrap_or_default();
+        if all.is_empty() || !all.iter().all(|thing| self.stops_of(*thing).is_some()) {
+            return Ok(None);
+        }
+        let mut found = self.definite(subject)?;
+        self.one_of_each_lift(subject, &mut found);
+        let [cabin] = found[..] else { return Ok(None) };
+        // "The second floor" is one of them; "both floors" are all.
+        let storeys = match anchor.plural || anchor.all {
+            true => storeys,
+            false => vec![self.one(anchor)?],
+        };
+        let maps = self.stops_of(cabin).unwrap_or_default();
+        let yes = storeys.iter().all(|storey| maps.contains(storey)) != (place.negated ^ negated);
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let text = format!("{head}{}", self.stops_at(cabin, &maps));
+        let said = if yes { Said::Yes } else { Said::No };
+        Ok(Some(Draft::new(said, text).with(vec![cabin]).about(&maps)))
+    }
+
+    /// The storeys where a lift stops.
+    fn stops_of(&self, cabin: Thing) -> Option<Vec<Thing>> {
+        let area = cabin.area()?;
+        let lifts = &self.world.domain.lifts;
+        let (_, stops) = lifts.iter().find(|(_, stops)| stops.iter().any(|s| s.area == area))?;
+        let on = |area| self.world.placement(area).map(|(map, _)| Thing::Entity(Entity::Map(map)));
+        let mut maps: Vec<Thing> = stops.iter().filter_map(|stop| on(stop.area)).collect();
+        maps.dedup();
+        Some(maps)
+    }
+
+    fn stops_at(&self, cabin: Thing, maps: &[Thing]) -> String {
+        let (name, list) = (self.name(cabin), self.list(maps));
+        match self.is_russian() {
+            true => format!("{name} останавливается здесь: {list}"),
+            false => format!("{name} stops at {list}"),
+        }
+    }
+}
