@@ -315,9 +315,17 @@ fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
     }
     for (goal, ending) in &answer.left {
         let thing = goal.args.first().map(|name| name_in(world, name, language));
-        let stays = language.pick("осталось не на месте", "is not in its place");
         let why = unfinished(world, ending, answer, language);
+        if goal.predicate != predicate::IN_ITS_PLACE {
+            told.push_str(&format!("\n{why}"));
+            continue;
+        }
+        let stays = language.pick("осталось не на месте", "is not in its place");
         told.push_str(&format!("\n{} {stays}. {why}", thing.unwrap_or_default()));
+    }
+    if answer.others_done {
+        told.push('\n');
+        told.push_str(language.pick("Остальное сделано.", "The rest is done."));
     }
     for thing in &answer.strays {
         let thing = name_in(world, thing, language);

@@ -136,7 +136,8 @@ impl State {
         }
         let goals = if goal.is_empty() { Vec::new() } else { vec![goal] };
         let domain = &scenario.domain;
-        let errand = Errand { domain, belief, relations: followed, goals, tidies: false };
+        let errand =
+            Errand { domain, belief, relations: followed, goals, tidies: false, each: false };
         self.drive(errand, vehicle, tell, stop)
     }
 }

@@ -1,7 +1,7 @@
 //! Tasks in words: a command becomes a goal, a mission drives to it, and each directive ends with a report.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 use std::sync::OnceLock;
 
 use crate::graphplan::Limits;
@@ -123,6 +123,8 @@ pub struct TaskAnswer {
     pub strays: Vec<String>,
     /// What was to be put away and lies where it is kept, by name, with that.
     pub kept: Vec<(String, String)>,
+    /// Whether the same was asked of several things, and done of those that are not told of as left.
+    pub others_done: bool,
     /// What the sentence asked for beside, and was not begun, since what was asked for before it came to nothing.
     pub not_begun: Vec<GoalFact>,
     /// Whether it was told to tidy: «Убери со стола».
@@ -147,6 +149,8 @@ pub(super) struct Errand<'r> {
     pub(super) goals: Vec<Vec<GoalFact>>,
     /// Whether a thing that cannot be put into its place lets the rest be tidied.
     pub(super) tidies: bool,
+    /// Whether the same is asked of several things, so that one of which it cannot be done lets it be done of the others.
+    pub(super) each: bool,
 }
 
 impl State {
@@ -395,7 +399,8 @@ impl State {
         let kept = |c: &Command<_>| matches!(c, Command::PutBack(_) | Command::PutAway(_));
         let tidies = commands.iter().any(|c| tidying(c) || kept(c));
         let domain = &self.rules.robot;
-        let errand = Errand { domain, belief, relations: followed, goals, tidies };
+        let each = asks_of_each(&commands);
+        let errand = Errand { domain, belief, relations: followed, goals, tidies, each };
         let mut answer = self.drive(errand, vehicle, tell, stop)?;
         (answer.strays, answer.kept) = (staying.strays, staying.kept);
         let must_report = matches!(answer.ending, TaskEnding::Stopped)
@@ -452,7 +457,7 @@ impl State {
         let (surveyed, before) = (self.world()?, self.uncarried()?);
         let (map, start) = self.robot()?;
         let remembered = (self.memory()?, self.around()?.moment());
-        let Errand { domain, belief, relations, goals, tidies } = errand;
+        let Errand { domain, belief, relations, goals, tidies, each } = errand;
         let sure = relations.relations().thresholds().belief_own;
         let after = |belief: &Belief| After::of(surveyed, before, remembered, (belief, sure));
         // Reports are of moments between plans; each follows by itself.
@@ -492,43 +497,67 @@ impl State {
         let mut ending = TaskEnding::AlreadyTrue;
         let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();
         let mut begun = 0;
-        for goal in &goals {
+        let mut run = |goal: &[GoalFact]| match (
+            mission.run(goal, vehicle, stop, &mut hear),
+            surprised.take(),
+        ) {
+            (Ok(ended), _) => Ok(ended),
+            // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
+            (Err(MissionError::Rules(_)), Some(surprise)) => Ok(Ending::Stuck(surprise)),
+            (Err(error), _) => Err(Error::from(error)),
+        };
+        let (mut done, mut given_up) = (false, Vec::new());
+        'goals: for goal in &goals {
             begun += 1;
-            let ended = match (mission.run(goal, vehicle, stop, &mut hear), surprised.take()) {
-                (Ok(ended), _) => ended,
-                // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
-                (Err(MissionError::Rules(_)), Some(surprise)) => Ending::Stuck(surprise),
-                (Err(error), _) => return Err(error.into()),
-            };
-            let failed = match ended {
-                Ending::Done => {
-                    ending = TaskEnding::Done;
-                    continue;
-                }
-                Ending::AlreadyTrue => continue,
-                Ending::NoPlan(planned) => TaskEnding::NoPlan(planned),
-                Ending::Stuck(surprise) => TaskEnding::Stuck(surprise),
-                Ending::Stopped => {
-                    ending = TaskEnding::Stopped;
-                    break;
-                }
-                Ending::Failed(failure) => {
-                    ending = TaskEnding::Failed(failure);
-                    break;
-                }
-            };
-            // What cannot be put away lets the rest be tidied.
-            match &goal[..] {
-                [fact] if tidies && fact.predicate == predicate::IN_ITS_PLACE => {
-                    left.push((fact.clone(), failed));
-                }
-                _ => {
-                    ending = failed;
-                    break;
+            // Together first; where that does not come about, one after the other.
+            let mut asked = VecDeque::from([but(goal, &given_up)]);
+            let mut holds: Vec<GoalFact> = Vec::new();
+            while let Some(facts) = asked.pop_front().filter(|facts| !facts.is_empty()) {
+                let whole: Vec<GoalFact> = holds.iter().chain(&facts).cloned().collect();
+                let failed = match run(&whole)? {
+                    Ending::Done => {
+                        (ending, done, holds) = (TaskEnding::Done, true, whole);
+                        continue;
+                    }
+                    Ending::AlreadyTrue => {
+                        holds = whole;
+                        continue;
+                    }
+                    Ending::NoPlan(planned) => TaskEnding::NoPlan(planned),
+                    Ending::Stuck(surprise) => TaskEnding::Stuck(surprise),
+                    Ending::Stopped => {
+                        ending = TaskEnding::Stopped;
+                        break 'goals;
+                    }
+                    Ending::Failed(failure) => {
+                        ending = TaskEnding::Failed(failure);
+                        break 'goals;
+                    }
+                };
+                match &facts[..] {
+                    // What cannot be put away lets the rest be tidied.
+                    [fact] if tidies && fact.predicate == predicate::IN_ITS_PLACE => {
+                        left.push((fact.clone(), failed));
+                    }
+                    [first, rest @ ..] if each => {
+                        match rest.iter().any(|f| f.args.first() != first.args.first()) {
+                            true => asked.extend(of_each_thing(&facts)),
+                            false => {
+                                left.push((first.clone(), failed));
+                                given_up.extend(facts);
+                            }
+                        }
+                    }
+                    _ => {
+                        ending = failed;
+                        break 'goals;
+                    }
                 }
             }
         }
-        if matches!(ending, TaskEnding::AlreadyTrue) && !left.is_empty() {
+        let stands = !matches!(ending, TaskEnding::Done | TaskEnding::AlreadyTrue);
+        let others_done = each && done && !left.is_empty() && !stands;
+        if !left.is_empty() && (matches!(ending, TaskEnding::AlreadyTrue) || others_done) {
             ending = left.remove(0).1;
         }
         Ok(TaskAnswer {
@@ -544,6 +573,7 @@ impl State {
             left,
             strays: Vec::new(),
             kept: Vec::new(),
+            others_done,
             not_begun: each_once(&goals).split_off(each_once(&goals[..begun]).len()),
             tidies: false,
             stops: false,
@@ -552,6 +582,25 @@ impl State {
             unsure: Vec::new(),
         })
     }
+}
+
+/// Whether commands ask for the same of several things: "Switch off every lamp", «Отнеси книги на стол».
+fn asks_of_each(commands: &[Command<Entity>]) -> bool {
+    let alike = |one: &Command<Entity>, other: &Command<Entity>| {
+        std::mem::discriminant(one) == std::mem::discriminant(other)
+            && one.place() == other.place()
+            && one.what().zip(other.what()).is_some_and(|(one, other)| one.id != other.id)
+    };
+    commands.len() > 1 && commands.windows(2).all(|pair| alike(&pair[0], &pair[1]))
+}
+
+/// Facts of a goal by the thing of which they are, in their order.
+fn of_each_thing(facts: &[GoalFact]) -> Vec<Vec<GoalFact>> {
+    facts.chunk_by(|one, other| one.args.first() == other.args.first()).map(<[_]>::to_vec).collect()
+}
+
+fn but(goal: &[GoalFact], given_up: &[GoalFact]) -> Vec<GoalFact> {
+    goal.iter().filter(|fact| !given_up.contains(fact)).cloned().collect()
 }
 
 /// The facts of goals of which some repeat the one before, and add to it.
@@ -606,6 +655,7 @@ impl State {
             left: Vec::new(),
             strays: Vec::new(),
             kept: Vec::new(),
+            others_done: false,
             not_begun: Vec::new(),
             tidies: false,
             stops: false,

@@ -281,6 +281,9 @@ impl Hearing<'_, '_> {
         if is_too_long(line) {
             return self.ask(line);
         }
+        if let Err(error) = self.engine.without_another(line) {
+            return self.refuse(error, self.spoken(line));
+        }
         if let (Some(order), Some(place)) = (self.dialogue.unplaced.take(), whither_alone(line)) {
             let whole = format!("{} {place}", order.trim_end_matches(['.', '!', ' ']));
             if self.engine.understand_in(&whole, &mut self.dialogue.memory.clone()).is_ok() {

@@ -5,14 +5,14 @@ use std::borrow::Cow;
 use crate::engine::error::both;
 use crate::engine::located::{nowhere_on, spot_in_words};
 use crate::engine::{Error, RequestError, State};
-use crate::language::Language;
 use crate::language::command::{
     self, Command, Facing, Listener, Misheard, Placement, Pointed, Relation, pointed, preamble,
-    with_names_marked, without_clock, without_marks,
+    with_names_marked, without_another, without_clock, without_marks,
 };
 use crate::language::question::{
     Answer, Conditional, Corrected, Memory, Thing, Unanswered, conditional, hinged, unaddressed,
 };
+use crate::language::{Language, word_ranges};
 use crate::map::Entity;
 use crate::units::Point;
 
@@ -45,6 +45,7 @@ impl State {
             }
         };
         let sentence = &*unaddressed(&corrected);
+        self.without_another(sentence)?;
         if let Some(conditional) = conditional(sentence) {
             return self.understood_if(&conditional, memory);
         }
@@ -78,6 +79,19 @@ impl State {
                 understood
             }
         }
+    }
+
+    /// Refuses what another is told to do: who is called by a name that is no name of the map.
+    ///
+    /// # Errors
+    /// [`Misheard::NotMe`]
+    pub(in crate::engine) fn without_another(&self, sentence: &str) -> Result<(), Error> {
+        let forms = self.forms()?;
+        let is_named = |name: &str| {
+            let words = word_ranges(name);
+            forms.length_at(name, &words, 0) == words.len()
+        };
+        Ok(without_another(sentence, is_named)?)
     }
 
     /// The commands of what is to be done as the world now is; to stay, where that is nothing.

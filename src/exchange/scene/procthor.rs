@@ -17,7 +17,7 @@ use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
 use super::json::{angles, list, parse, plan, remark, text, triple};
-use super::shape::{self, Build};
+use super::shape::{self, Bay, Build};
 use super::stock::{Facing, Piece, Shelf, shelve, state};
 
 const FORMAT: &str = "ProcTHOR";
@@ -410,6 +410,16 @@ impl Reader<'_> {
                 seat = Some((top, piece.bottom + shape::seat_level(piece.height, &levels)));
             }
             inside.push(top);
+            let lies_there = |bay: &Bay| {
+                children
+                    .iter()
+                    .any(|(_, c)| c.as_ref().is_some_and(|c| bay.contains(piece.own(c.at))))
+            };
+            if piece.bay.as_ref().is_some_and(lies_there) {
+                // The file shows that something is there, whatever the asset's name says.
+                piece.bay = None;
+                piece.kind.push_str("@whole");
+            }
             pieces.push(piece);
         }
         // Nesting is limited by the parser.
@@ -474,6 +484,7 @@ impl Reader<'_> {
             bottom: at[1] - half[1],
             angle: -turn[1],
             half: [half[0], half[2]],
+            bay: bay(asset_id, [half[0], half[2]]).filter(|_| upright),
             height: half[1] * 2.0,
             facing: if upright { Facing::Own } else { Facing::Unknown },
             move_prob: (record.get("kinematic").and_then(Value::as_bool) == Some(true))
@@ -482,6 +493,21 @@ impl Reader<'_> {
             properties,
         })
     }
+}
+
+/// Where the box of a counter is empty, by the name of its asset: `Countertop_L_8x10` is a row along the back and one
+/// along the right side, `Countertop_C_8x6` has one along both sides. All are as deep as the straight ones are.
+fn bay(asset: &str, [w, d]: [f64; 2]) -> Option<Bay> {
+    /// Depth of the straight counters of the database, cm.
+    const ROW: f64 = 61.1;
+    let form = asset.strip_prefix("Countertop_")?.split('_').next()?;
+    let left = match form {
+        "L" => -w,
+        "C" => ROW - w,
+        _ => return None,
+    };
+    let bay = Bay { low: Point::new(left, ROW - d), high: Point::new(w - ROW, d) };
+    (bay.high - bay.low).iter().all(|side| *side > shape::SAME_LEVEL).then_some(bay)
 }
 
 /// A hinged door with the leaves that its asset's name tells of.

@@ -21,6 +21,8 @@ use crate::Part;
 use crate::map::Permeability;
 use crate::units::{Cm, Point};
 
+use super::plane::difference;
+
 /// Thickness of a table top and of a shelf, cm: what carpenters use.
 const TOP: f64 = 4.0;
 const SHELF: f64 = 2.0;
@@ -35,6 +37,8 @@ pub(super) const STANDS: f64 = 8.0;
 pub(super) const SUNK: f64 = 2.0;
 /// What holds a thing is so many times as large: two apples whose boxes overlap do not lie in one another.
 const ROOMIER: f64 = 2.5;
+/// How high a floor covering is at most where a wheel or a foot presses on it, cm: what a box has above that is pile.
+pub(super) const PILE: f64 = 2.0;
 /// Height of a seat for people where nothing tells it, cm, and its greatest share of the whole.
 const SEAT: f64 = 45.0;
 const SEAT_SHARE: f64 = 0.6;
@@ -52,6 +56,8 @@ pub(super) enum Build {
     Case,
     /// Open from above: basket, sink.
     Bowl,
+    /// Lies on the floor and gives way: one walks and drives over it.
+    Covering,
     /// Hangs on a wall or from the ceiling: where its foot ends there is no surface.
     Hung,
     /// The box is only what surrounds a body of unknown build that has room for others.
@@ -124,6 +130,7 @@ const WORDS: &[(Build, &[&str])] = &[
     ),
     // A rim with a basin in it: what stands on the rim and what lies in the basin.
     (Build::Envelope, &["sink"]),
+    (Build::Covering, &["bathmat", "carpet", "doormat", "mat", "rug"]),
     (
         Build::Hung,
         &[
@@ -161,6 +168,20 @@ pub(super) fn build(word: &str) -> Build {
     known.map_or(Build::Block, |(build, _)| *build)
 }
 
+/// A rectangle of a box in which there is nothing of the thing: the corner of an L, the bay of a U. In the thing's own
+/// frame, the middle of its box at the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bay {
+    pub(super) low: Point,
+    pub(super) high: Point,
+}
+
+impl Bay {
+    pub(super) fn contains(&self, p: Point) -> bool {
+        p.x > self.low.x && p.x < self.high.x && p.y > self.low.y && p.y < self.high.y
+    }
+}
+
 /// A thing as its file gives it: an upright box.
 #[derive(Debug, Clone)]
 pub(super) struct Crate {
@@ -171,6 +192,7 @@ pub(super) struct Crate {
     pub(super) angle: f64,
     /// Half of width and depth.
     pub(super) half: [f64; 2],
+    pub(super) bay: Option<Bay>,
     pub(super) bottom: f64,
     pub(super) top: f64,
 }
@@ -183,8 +205,10 @@ impl Crate {
     fn covers(&self, p: Point) -> bool {
         let (sin, cos) = self.angle.to_radians().sin_cos();
         let v = p - self.at;
-        (v.x * cos + v.y * sin).abs() <= self.half[0]
-            && (v.y * cos - v.x * sin).abs() <= self.half[1]
+        let own = Point::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin);
+        own.x.abs() <= self.half[0]
+            && own.y.abs() <= self.half[1]
+            && !self.bay.is_some_and(|bay| bay.contains(own))
     }
 
     fn grown(&self, by: f64) -> Self {
@@ -345,9 +369,15 @@ impl Neighbours {
 }
 
 /// The Orthoframes of a box, its middle at the origin, its bottom at height 0, its front towards +y.
-pub(super) fn parts(build: Build, half: [f64; 2], height: f64, levels: &[f64]) -> Vec<Part> {
+pub(super) fn parts(
+    build: Build,
+    half: [f64; 2],
+    bay: Option<Bay>,
+    height: f64,
+    levels: &[f64],
+) -> Vec<Part> {
     let [w, d] = half;
-    let whole = rectangle(-w, -d, w, d);
+    let whole = ground(half, bay);
     let solid = |word: &str, outline: Vec<Point>, bottom: f64, top: f64| Part {
         word: word.to_owned(),
         outline,
@@ -420,9 +450,9 @@ pub(super) fn parts(build: Build, half: [f64; 2], height: f64, levels: &[f64]) -
             parts.push(solid("rim", whole.clone(), height - top, height));
             parts
         }
-        Build::Block | Build::Hung => match levels.first() {
+        Build::Block | Build::Covering | Build::Hung => match levels.first() {
             None => vec![solid("", whole.clone(), 0.0, height)],
-            Some(_) => self::parts(Build::Envelope, half, height, levels),
+            Some(_) => self::parts(Build::Envelope, half, bay, height, levels),
         },
     }
 }
@@ -434,6 +464,14 @@ pub(super) fn seat_level(height: f64, levels: &[f64]) -> f64 {
         let usual = SEAT.min(height * SEAT_SHARE);
         if height <= SEAT + SAME_LEVEL { height } else { usual }
     })
+}
+
+/// What a thing covers of its box.
+fn ground([w, d]: [f64; 2], bay: Option<Bay>) -> Vec<Point> {
+    let whole = rectangle(-w, -d, w, d);
+    let Some(Bay { low, high }) = bay else { return whole };
+    let bay = rectangle(low.x, low.y, high.x, high.y);
+    difference(std::slice::from_ref(&whole), &[bay]).into_iter().next().unwrap_or(whole)
 }
 
 /// The stretches of height below `top` that floors leave free.
@@ -459,7 +497,7 @@ mod tests {
 
     fn thing(build: Build, at: (f64, f64), half: f64, bottom: f64, top: f64) -> Crate {
         let at = Point::new(at.0, at.1);
-        Crate { build, at, angle: 0.0, half: [half, half], bottom, top }
+        Crate { build, at, angle: 0.0, half: [half, half], bay: None, bottom, top }
     }
 
     #[test]
@@ -496,7 +534,7 @@ mod tests {
         let cases: [&[f64]; 6] = [&[], &[0.0], &[1.0], &[30.0], &[10.0, 45.0], &[5.0, 20.0, 88.0]];
         for (build, levels) in all.iter().flat_map(|b| cases.iter().map(move |l| (*b, *l))) {
             for height in [0.0, 3.0, 11.0, 40.0, 90.0, 210.0] {
-                let parts = parts(build, [40.0, 30.0], height, levels);
+                let parts = parts(build, [40.0, 30.0], None, height, levels);
                 let solid: Vec<_> = parts
                     .iter()
                     .filter(|p| p.permeability == Permeability::Impermeable)
@@ -517,11 +555,11 @@ mod tests {
 
     #[test]
     fn a_chair_without_anything_on_it_has_a_seat_at_the_usual_height() {
-        let chair = parts(build("Chair"), [25.0, 25.0], 90.0, &[]);
+        let chair = parts(build("Chair"), [25.0, 25.0], None, 90.0, &[]);
         assert_eq!(chair.len(), 2);
         assert_eq!(chair[0].height, Cm::of(45.0));
         assert_eq!((chair[1].word.as_str(), chair[1].bottom), ("back", Cm::of(45.0)));
-        let table = parts(build("Dining_Table"), [60.0, 40.0], 75.0, &[]);
+        let table = parts(build("Dining_Table"), [60.0, 40.0], None, 75.0, &[]);
         assert_eq!(table.iter().filter(|p| p.word == "leg").count(), 4);
     }
 }

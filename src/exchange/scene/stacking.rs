@@ -108,7 +108,7 @@ mod tests {
 
     fn thing(build: Build, at: (f64, f64), half: f64, bottom: f64, top: f64) -> Crate {
         let at = Point::new(at.0, at.1);
-        Crate { build, at, angle: 0.0, half: [half, half], bottom, top }
+        Crate { build, at, angle: 0.0, half: [half, half], bay: None, bottom, top }
     }
 
     #[test]

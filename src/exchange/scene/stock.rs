@@ -6,7 +6,7 @@ use crate::map::Properties;
 use crate::units::{Cm, Deg, Point};
 use crate::{Feet, Kind, Thing};
 
-use super::shape::{self, Build, Crate};
+use super::shape::{self, Bay, Build, Crate};
 use super::stacking;
 
 /// One thing as its file gives it. Lengths in cm.
@@ -24,11 +24,22 @@ pub(super) struct Piece {
     pub(super) angle: f64,
     /// Half of width and depth.
     pub(super) half: [f64; 2],
+    /// Where its box is empty.
+    pub(super) bay: Option<Bay>,
     pub(super) height: f64,
     pub(super) facing: Facing,
     pub(super) move_prob: Option<u8>,
     pub(super) kind_properties: Properties,
     pub(super) properties: Properties,
+}
+
+impl Piece {
+    /// A point of the plan in the frame of its box.
+    pub(super) fn own(&self, p: Point) -> Point {
+        let (sin, cos) = self.angle.to_radians().sin_cos();
+        let v = p - self.at;
+        Point::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin)
+    }
 }
 
 /// What a file knows of the way a box is turned.
@@ -78,6 +89,9 @@ pub(super) struct Shelf {
 }
 
 pub(super) fn shelve(mut pieces: Vec<Piece>) -> Shelf {
+    for piece in pieces.iter_mut().filter(|p| shape::build(&p.word) == Build::Covering) {
+        piece.height = piece.height.min(shape::PILE);
+    }
     let mut boxes: Vec<Crate> = pieces
         .iter()
         .map(|p| Crate {
@@ -85,6 +99,7 @@ pub(super) fn shelve(mut pieces: Vec<Piece>) -> Shelf {
             at: p.at,
             angle: p.angle,
             half: p.half,
+            bay: p.bay,
             bottom: p.bottom,
             top: p.bottom + p.height,
         })
@@ -133,6 +148,7 @@ pub(super) fn shelve(mut pieces: Vec<Piece>) -> Shelf {
             parts: shape::parts(
                 *build,
                 piece.half,
+                piece.bay,
                 piece.height,
                 &shape::common(levels.iter().copied()),
             ),

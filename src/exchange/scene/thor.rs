@@ -176,6 +176,7 @@ fn piece(object: &Value, id: &str, word: &str) -> Option<Piece> {
         bottom: low[1],
         angle,
         half: [half[0], half[2]],
+        bay: None,
         height: half[1] * 2.0,
         facing: if own { Facing::Own } else { Facing::Unknown },
         move_prob: fixed.then_some(0),

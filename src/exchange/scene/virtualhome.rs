@@ -205,6 +205,7 @@ impl<'v> Node<'v> {
             bottom: self.low[1],
             angle: 0.0,
             half,
+            bay: None,
             height,
             facing: Facing::Unknown,
             move_prob: match () {

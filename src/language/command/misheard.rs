@@ -77,6 +77,19 @@ pub enum Misheard {
         #[label("здесь")]
         at: SourceSpan,
     },
+    /// Another is told to do it.
+    #[error("«{name}» – это не я")]
+    #[diagnostic(
+        code(language::not_me),
+        help("я отвечаю за одного робота; если задание для меня, повторите его без этого имени")
+    )]
+    NotMe {
+        name: String,
+        #[source_code]
+        text: Source,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
     /// A description that several things fit, told apart as an answer tells them.
     #[error("{}", .0.text)]
     #[diagnostic(code(language::ambiguous), help("скажите, что из этого имелось в виду"))]
@@ -194,6 +207,7 @@ impl InEnglish for Misheard {
             Self::Forbidden { .. } => "I keep no prohibitions in mind".to_owned(),
             Self::Unable { word, .. } => format!("I cannot do that: \"{word}\""),
             Self::Timed { word, .. } => format!("I keep no time: \"{word}\""),
+            Self::NotMe { name, .. } => format!("I am not \"{name}\""),
             Self::WhichOf(unanswered) | Self::NoneSuch(unanswered) => unanswered.text.clone(),
             Self::Incomplete { english, .. } => format!("you did not say {english}"),
             Self::Ambiguous { reference, candidates, .. } => {
@@ -211,6 +225,9 @@ impl InEnglish for Misheard {
             Self::Forbidden { .. } => "without a command I do nothing; say what to do",
             Self::Unable { .. } => ABLE[1],
             Self::Timed { .. } => "tell me when it has come",
+            Self::NotMe { .. } => {
+                "I speak for one robot; if the order is meant for me, say it without that name"
+            }
             Self::WhichOf(_) => "say which of these was meant",
             Self::NoneSuch(_) => "name what the map has",
             Self::UnknownName { near, .. } => {

@@ -17,6 +17,7 @@
 //! assert!(matches!(&heard[..], [Command::Open(thing)] if thing.id == "Дверь-ВZ"));
 //! ```
 
+mod addressee;
 mod assemble;
 mod blame;
 mod clauses;
@@ -37,6 +38,7 @@ mod verbs;
 mod vocabulary;
 mod waiting;
 
+pub use addressee::without_another;
 pub(crate) use correction::{Correction, correction, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_haunt, is_of_another, names_nothing, says_whither};

@@ -33,7 +33,9 @@ mod phrase;
 pub mod russian;
 pub(crate) mod things;
 
-pub(crate) use dictionary::{is_first_person, is_russian_word, ordering_verb, says_nothing};
+pub(crate) use dictionary::{
+    is_first_person, is_russian_word, ordering_verb, readings, says_nothing,
+};
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};
 pub use letters::word_ranges;
