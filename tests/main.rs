@@ -85,6 +85,7 @@ mod position_reports;
 mod put_back;
 mod put_into;
 mod queue;
+mod reached;
 mod referents;
 mod relation_truth;
 mod relations;

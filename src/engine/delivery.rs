@@ -89,8 +89,9 @@ impl State {
     /// Whether a thing is made to bear or hold others.
     pub(super) fn bears(&self, id: ReplicaId) -> bool {
         let Ok(world) = self.world() else { return false };
-        !world.has_trait(id, "portable")
-            || ["support", "container"].iter().any(|wanted| world.has_trait(id, wanted))
+        let has = |wanted: &&str| world.has_trait(id, wanted);
+        let is_made_to = ["support", "container", "seat", "bed"].iter().any(has);
+        is_made_to || !["portable", "device", "light"].iter().any(has)
     }
 
     /// A thing that is to be beside another: on what that one stands on, else on the floor before it.

@@ -1,6 +1,6 @@
 //! From commands to goals: what is to hold when each is done, in the order in which they were given.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 
 use crate::language::command::{Command, Relation};
 use crate::map::{DoorStatus, Entity};
@@ -450,11 +450,41 @@ impl State {
         let in_area = |area: &AreaId| {
             vec![fact(predicate::ROBOT_IN, vec![world.name(Entity::Area(*area)).to_owned()])]
         };
-        let beyond = sides.iter().find(|side| Some(**side) != here);
-        Ok(match (here.filter(|here| sides.contains(here)), beyond) {
-            (Some(_), Some(beyond)) => vec![at_door, in_area(beyond)],
+        let near = here.and_then(|here| self.nearest_side(here, door, &sides, relations));
+        let beyond = sides.iter().find(|side| Some(**side) != near);
+        Ok(match (near, beyond) {
+            (Some(_), Some(beyond)) if near == here => vec![at_door, in_area(beyond)],
+            // From farther off: first to the side to which it comes, so that it goes through and does not only come there.
+            (Some(near), Some(beyond)) => vec![in_area(&near), at_door, in_area(beyond)],
             _ => vec![at_door],
         })
+    }
+
+    /// Of the two rooms of a door the one to which the robot comes first that does not go through it.
+    fn nearest_side(
+        &self,
+        here: AreaId,
+        door: DoorId,
+        sides: &BTreeSet<AreaId>,
+        relations: &Relations,
+    ) -> Option<AreaId> {
+        let (lifts, joins) = (lifts(self.world().ok()?, relations), relations.joins());
+        let mut seen = BTreeSet::from([here]);
+        let mut next = VecDeque::from([here]);
+        while let Some(area) = next.pop_front() {
+            if sides.contains(&area) {
+                return Some(area);
+            }
+            let others = joins.iter().filter(|j| j.door != Some(door));
+            let beside = others.filter(|j| j.from == area).map(|j| j.to);
+            let of_lift = lifts.iter().filter(|lift| lift.cabins.contains(&area));
+            for other in beside.chain(of_lift.flat_map(|lift| lift.cabins.iter().copied())) {
+                if seen.insert(other) {
+                    next.push_back(other);
+                }
+            }
+        }
+        None
     }
 
     /// In the room next to this one to which the way is the shortest.

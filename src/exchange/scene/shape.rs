@@ -237,7 +237,10 @@ impl Crate {
 
     /// Whether a thing stands on the top of this one, as well as boxes tell.
     pub(super) fn bears(&self, thing: &Self) -> bool {
-        (-SUNK..=STANDS).contains(&(thing.bottom - self.top))
+        // Furniture that stands on the floor where a rug lies too.
+        let on_floor =
+            self.build == Build::Covering && thing.bottom < f64::midpoint(self.bottom, self.top);
+        !on_floor && (-SUNK..=STANDS).contains(&(thing.bottom - self.top))
     }
 
     /// Whether a thing beneath this table or seat stands on the floor that this stands on.

@@ -90,6 +90,10 @@ pub(super) struct Shelf {
 
 pub(super) fn shelve(mut pieces: Vec<Piece>) -> Shelf {
     for piece in pieces.iter_mut().filter(|p| shape::build(&p.word) == Build::Covering) {
+        // It lies on the floor, not a centimetre above it.
+        if piece.bottom.abs() < shape::SAME_LEVEL {
+            piece.bottom = 0.0;
+        }
         piece.height = piece.height.min(shape::PILE);
     }
     let mut boxes: Vec<Crate> = pieces

@@ -150,12 +150,6 @@ fn joined(text: &str) -> Cow<'_, str> {
         if keys.get(at + 1).is_some_and(|next| halves.contains(&next.as_str())) {
             continue;
         }
-        let end = (at + 1..=words.len()).find(|&end| ends_clause(text, &words, &keys, end));
-        let mut last = end.unwrap_or(words.len());
-        // "… on, please", "… off now"
-        while last > at + 2 && set!("BehindHalf").contains(&keys[last - 1].as_str()) {
-            last -= 1;
-        }
         let half_before = |end: usize| {
             let half = halves.iter().map(|half| end - half.split(' ').count().min(end));
             half.filter(|&from| from > at + 1)
@@ -169,8 +163,25 @@ fn joined(text: &str) -> Cow<'_, str> {
         let stays = |(_, half): &(usize, Range<usize>)| {
             !set!("HalfOfPlace").contains(&keys[half.start].as_str())
         };
-        let inside = || (at + 3..last).filter(before_place).filter_map(half_before).find(stays);
-        moved.extend(half_before(last).or_else(inside));
+        // "Turn the lamp and the fan off": behind all of a list, up to what is ordered next.
+        let next_verb = (at + 1..words.len())
+            .find(|&n| matches!(meaning_at(&keys, n), Some((_, Meaning::Verb(_)))));
+        let ends = (at + 1..=words.len()).filter(|&end| ends_clause(text, &words, &keys, end));
+        let ends = ends.take_while(|end| next_verb.is_none_or(|verb| *end <= verb));
+        let mut from = at + 1;
+        let half = ends.into_iter().find_map(|end| {
+            let begin = std::mem::replace(&mut from, end);
+            let mut last = end;
+            // "… on, please", "… off now"
+            while last > at + 2 && set!("BehindHalf").contains(&keys[last - 1].as_str()) {
+                last -= 1;
+            }
+            let inside = || {
+                (begin.max(at + 3)..last).filter(before_place).filter_map(half_before).find(stays)
+            };
+            half_before(last).filter(|half| half.1.start >= begin).or_else(inside)
+        });
+        moved.extend(half);
     }
     if moved.is_empty() {
         return Cow::Borrowed(text);
@@ -196,6 +207,17 @@ mod tests {
             ("Switch all lights off and come back", "Switch off all lights and come back"),
             ("put the book on the shelf", "put the book on the shelf"),
             ("Turn off every lamp that's on", "Turn off every switched on lamp"),
+            ("Turn the lamp and the TV off", "Turn off the lamp and the TV"),
+            (
+                "Put Bowl 1, Cup 2 and Mug 1 back, please",
+                "Put back Bowl 1, Cup 2 and Mug 1, please",
+            ),
+            (
+                "Put the cup on the desk and turn the TV off",
+                "Put the cup on the desk and turn off the TV",
+            ),
+            ("Верни чашку и ложку на место", "Верни на место чашку и ложку"),
+            ("Put the cup down and come back", "Put down the cup and come back"),
             ("Put it down.", "Put down it."),
             ("Switch everything off in the hall", "Switch off all the things in the hall"),
             ("Верни её на место", "Верни на место её"),

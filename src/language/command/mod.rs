@@ -49,8 +49,8 @@ pub use misheard::Misheard;
 pub use named::{with_names_marked, without_marks};
 pub use spot::{Pointed, pointed};
 pub(crate) use verbs::{
-    Sort, clauses, forbids, is_known, link_at, link_before, opens, small_words, verbs_of,
-    without_verbs,
+    Sort, clauses, forbids, is_known, link_at, link_before, link_is_open, opens, small_words,
+    verbs_of, without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
 pub use waiting::{Waiting, waiting};

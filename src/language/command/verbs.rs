@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::Relation;
 use super::vocabulary::{Meaning, Verb, is_wished, longest, verbs};
 use crate::sets::Set;
 use crate::units::name_key;
@@ -211,6 +212,13 @@ pub(crate) fn is_known(keys: &[String], at: usize) -> bool {
 #[must_use]
 pub(crate) fn link_at(keys: &[String], at: usize) -> bool {
     at < keys.len() && matches!(meaning_at(keys, at), Some((_, Meaning::Link(_))))
+}
+
+/// Whether the preposition at a word leaves open whether something goes into a thing, onto it or beside it: «к», "to".
+#[must_use]
+pub(crate) fn link_is_open(keys: &[String], at: usize) -> bool {
+    let link = (at < keys.len()).then(|| meaning_at(keys, at)).flatten();
+    matches!(link, Some((_, Meaning::Link(link))) if link.relation == Relation::At)
 }
 
 /// How many words at the beginning of some are politeness.

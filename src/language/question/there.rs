@@ -9,7 +9,7 @@ use super::focus::is_one;
 use super::knowledge::Knowledge;
 use super::memory::Exchange;
 use super::query::{Claim, Noun, Query, Rel, Restriction, Thing};
-use crate::map::Entity;
+use crate::map::{Entity, stands};
 use crate::sets::set;
 use crate::words::word_keys;
 
@@ -101,6 +101,15 @@ impl Knowledge<'_> {
             None if !bears && !carried => Ok(Some(Rel::In)),
             _ => Err(Doubt::InOrOn { place }),
         }
+    }
+
+    /// Whether a thing is there to hold others behind its doors, and not to bear any.
+    pub(super) fn shuts_things_in(&self, thing: Thing) -> bool {
+        let Some(id) = thing.replica() else { return false };
+        let has = |wanted: &&str| self.world.has_trait(id, wanted);
+        let has_doors =
+            self.world.replicas.get(&id).is_some_and(|it| stands(self.world, it).is_some());
+        has(&"container") && has_doors && !["support", "seat", "bed", "portable"].iter().any(has)
     }
 
     /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.

@@ -62,12 +62,39 @@ impl Resolver<'_, '_> {
             });
             found = knowledge.find(&with(noun, &inside.collect::<Vec<_>>()), true)?;
         }
+        // «дверь между кухней и спальней», where the one that is called so has none: another of the kind is meant.
+        if found.is_empty() && !(noun.plural || noun.all) {
+            found = self.at_others_of_the_kind(noun, within)?;
+        }
         let are_any = !found.is_empty();
         found.retain(|t| matches!(t, Thing::Entity(_)));
         // What is there and has no name of its own, a window, cannot be a goal; it is not denied.
         if are_any && found.is_empty() {
             return Err(Doubt::not_understood(&noun.text));
         }
+        Ok(found)
+    }
+
+    /// What a description fits where each place that is told by a name which is a kind's as well may be any of the kind.
+    fn at_others_of_the_kind(
+        &self,
+        noun: &Noun,
+        within: &[Restriction],
+    ) -> Result<Vec<Thing>, Doubt> {
+        let mut found = Vec::new();
+        for (n, place) in within.iter().enumerate() {
+            for (m, anchor) in place.anchors.iter().enumerate() {
+                let Some(of_kind) = anchor.of_kind() else { continue };
+                for thing in self.knowledge.find(&of_kind, true)? {
+                    let mut places = within.to_vec();
+                    places[n].anchors[m] =
+                        Noun { text: anchor.text.clone(), ..Noun::of(vec![thing]) };
+                    found.extend(self.candidates(noun, &places)?);
+                }
+            }
+        }
+        found.order();
+        found.dedup();
         Ok(found)
     }
 
@@ -87,16 +114,31 @@ impl Resolver<'_, '_> {
             let any = Noun { count: None, ..anchor.clone() };
             borne.push((self.knowledge.find(&any, true)?, anchor));
         }
-        found.retain(|t| {
+        let has = |t: &Thing, of: &dyn Fn(&Thing, &Thing) -> bool| {
             borne.iter().any(|(all, anchor)| {
-                let count = all.iter().filter(|b| bears(t, b)).count() as u64;
+                let count = all.iter().filter(|b| of(t, b)).count() as u64;
                 // "The table with two cups" bears so many and no other number.
                 match anchor.count.filter(|_| anchor.best.is_none()) {
                     Some(asked) => count > 0 && anchor.quantity.admits(count, asked),
                     None => count > 0,
                 }
             })
+        };
+        let of_none = !found.iter().any(|t| has(t, &bears));
+        // "The desk with the computer" under it, or beside it, where none bears one.
+        let stands = [Rel::Under, Rel::NextTo].into_iter().find_map(|rel| {
+            let by = |t: &Thing, b: &Thing| {
+                t.replica().is_some()
+                    && b.replica().is_some()
+                    && self.knowledge.related(rel, *t).contains(b)
+            };
+            let with: Vec<Thing> = found.iter().copied().filter(|t| has(t, &by)).collect();
+            (of_none && !with.is_empty()).then_some(with)
         });
+        match stands {
+            Some(with) => found = with,
+            None => found.retain(|t| has(t, &bears)),
+        }
         match (found.is_empty(), noun.of_kind()) {
             (true, Some(of_kind)) => self.bearing(&of_kind, within, at),
             _ => Ok(found),

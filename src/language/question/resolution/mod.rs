@@ -338,6 +338,13 @@ impl Resolver<'_, '_> {
         let there = room.and_then(|room| self.only_one_in(room, &spot.phrase.noun, &within));
         let thing = there.map_or_else(|| self.place(spot, &within), |there| Ok(Some(there)))?;
         let Some(thing) = thing else { return Ok(None) };
+        // «Отнеси молоко к холодильнику»: things are put in it, and only boxes on top of it.
+        let carries = matches!(sort, Sort::Put | Sort::Carry);
+        let link = self.sentence.words.iter().position(|word| word.start == spot.at.start);
+        let open = link.is_some_and(|n| command::link_is_open(&self.sentence.keys, n));
+        if carries && open && self.knowledge.shuts_things_in(thing) {
+            return Err((Doubt::InOrOn { place: thing }, self.bytes(&spot.phrase.words)));
+        }
         edits.extend(aside.iter().map(Edit::deletion));
         let name = self.knowledge.form(self.told_by(thing), case_of(spot.rel, true));
         let at = self.bytes(&spot.phrase.words);

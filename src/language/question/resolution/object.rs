@@ -17,7 +17,7 @@ use crate::question::values::ValueId;
 use crate::semantics::lifts;
 use crate::sets::{Set, set};
 use crate::units::{AreaId, DoorId};
-use crate::words::{Case, Language, Number, Readings};
+use crate::words::{Case, Language, Number, Readings, phrase_at};
 
 /// The thing that is taken of several that were named, and the words that named them.
 pub(super) type Chosen = (Thing, Range<usize>);
@@ -74,7 +74,11 @@ impl Resolver<'_, '_> {
             && !self.spoken.is_empty()
             && !(points(&noun) && noun.best.is_some())
         {
-            noun.head = Head { things: Some(self.spoken.clone()), ..Head::default() };
+            let spoken = self.spoken_for(sort);
+            if spoken.is_empty() {
+                return Err((Doubt::NoReferent { word: noun.text.clone() }, at));
+            }
+            noun.head = Head { things: Some(spoken), ..Head::default() };
             // "the second one", in the order in which they were told
             let bare = noun.filters.is_empty() && spots.is_empty();
             if let (Some(rank), None, true) = (noun.rank, &noun.best, bare) {
@@ -102,9 +106,11 @@ impl Resolver<'_, '_> {
             if spot.within.iter().any(|place| place.rel == Rel::Has) {
                 let found = self.candidates(&spot.phrase.noun, &spot.within);
                 let found = found.map_err(|doubt| (doubt, self.bytes(&spot.phrase.words)))?;
-                if !found.is_empty() {
-                    anchor = Noun { text: anchor.text, plural: found.len() > 1, ..Noun::of(found) };
+                if found.is_empty() {
+                    let doubt = self.knowledge.none_such(&anchor);
+                    return Err((doubt, self.bytes(&spot.phrase.words)));
                 }
+                anchor = Noun { text: anchor.text, plural: found.len() > 1, ..Noun::of(found) };
             }
             // What the sentence has named, else what was spoken of that may be so related: "the banana from it".
             if let Some(pronoun) = spot.phrase.pronoun {
@@ -156,6 +162,16 @@ impl Resolver<'_, '_> {
         let is_window = |k| self.knowledge.lexicon().kind(k).extension == Extension::Windows;
         if sort == Sort::Door && noun.head.kinds.iter().any(|k| is_window(*k)) {
             return Err((Doubt::Windows, at));
+        }
+        if let (Some(room), true) = (more.gone_to, doors && within.is_empty())
+            && let Some(words) = self.behind_oneself(&phrase.words)
+        {
+            let door = self.door_come_through(room).filter(|door| self.knowledge.can(sort, *door));
+            let word = self.sentence.said(&words).to_owned();
+            return match door {
+                Some(door) => Ok(Some(vec![door])),
+                None => Err((Doubt::NoReferent { word }, self.bytes(&words))),
+            };
         }
         let mut found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
         // "The one from the dresser", where a list was told before the last one: of that.
@@ -410,6 +426,40 @@ impl Resolver<'_, '_> {
         }
         let words = objects[0].1.words.start..objects[others].1.words.end;
         Ok(self.nearest(&found).map(|thing| (thing, words)))
+    }
+
+    /// «Закрой дверь за собой», «закрой за собой дверь»: some words with those behind or before them.
+    fn behind_oneself(&self, words: &Range<usize>) -> Option<Range<usize>> {
+        let said = |at: usize| {
+            set!("BehindOneself").iter().filter_map(move |p| phrase_at(&self.sentence.keys, at, p))
+        };
+        let behind = said(words.end).max().map(|taken| words.start..words.end + taken);
+        behind.or_else(|| {
+            let before = |at: &usize| said(*at).any(|taken| at + taken == words.start);
+            (0..words.start).find(before).map(|at| at..words.end)
+        })
+    }
+
+    /// Through what the robot comes last on its way to a room.
+    fn door_come_through(&self, room: AreaId) -> Option<Thing> {
+        let here = self.knowledge.area_of(Thing::Robot)?;
+        let way = self.knowledge.passage(&[here], &[room])?;
+        way.crossings.last().map(|crossing| crossing.by)
+    }
+
+    /// Of what was spoken of last, or before it, that to which such a thing can be done: "What about the living room? –
+    /// Take the one on the table". Where nothing can, what was spoken of last, but no room is "the one" that is taken.
+    fn spoken_for(&self, sort: Sort) -> Vec<Thing> {
+        if !matches!(sort, Sort::Carry | Sort::Put | Sort::Switch | Sort::Door) {
+            return self.spoken.clone();
+        }
+        let able = |things: &[Thing]| things.iter().any(|t| self.knowledge.can(sort, *t));
+        let exchanges = self.knowledge.memory.exchanges.iter();
+        let before = || exchanges.map(|e| e.members().to_vec()).find(|all| able(all));
+        match able(&self.spoken) || self.spoken.iter().any(|t| t.area().is_none()) {
+            true => self.spoken.clone(),
+            false => before().unwrap_or_default(),
+        }
     }
 
     /// Whatever is of the kind of what was spoken of last: «ещё одну», "another one".
