@@ -7,7 +7,7 @@ use super::mark::Mark;
 use super::query::Extreme;
 use super::{
     Answer, Asker, Courtesy, Head, Memory, Noun, Query, Rel, Restriction, Said, Thing, Unanswered,
-    opening, several,
+    opening, several, vocabulary,
 };
 use crate::command::has_verb;
 use crate::sets::{Set, set};
@@ -132,6 +132,14 @@ impl Asker<'_> {
                     }
                     place = Some(phrase.noun.clone());
                 }
+                // "I'm at the desk in the hall", "… at the counter upstairs"
+                Item::Place { rel: rel @ (Rel::In | Rel::On), nouns, either: false } => {
+                    let [phrase] = &nouns[..] else { return None };
+                    let is_part = phrase.pronoun.is_none() && phrase.person.is_none();
+                    let anchors = vec![phrase.noun.clone()];
+                    let within = Restriction { rel, anchors, negated: false };
+                    place.as_mut().filter(|_| is_part)?.restrictions.push(within);
+                }
                 _ => return None,
             }
         }
@@ -144,7 +152,7 @@ impl Asker<'_> {
         if let [only] = found[..] {
             memory.mention(&[only]);
             if let Thing::Entity(place) = only {
-                memory.person = Some(place);
+                (memory.person, memory.astray) = (Some(place), None);
             }
         }
     }
@@ -173,10 +181,65 @@ impl Asker<'_> {
         Some(Answer::ran(query, language, Said::Found, text, format!("{told} {name}.")))
     }
 
+    /// The words with which a person says to be somewhere that is no one place of the map: "I'm in the garage".
+    pub(super) fn astray<'t>(&self, text: &'t str, memory: &Memory) -> Option<&'t str> {
+        let lost = |part: &'t str| {
+            let clause = part.split([',', ';', '–', '—']).next()?.trim_end_matches(['.', '!', ' ']);
+            if clause.ends_with('?') || !self.says_to_be_somewhere(clause) {
+                return None;
+            }
+            let knowledge = self.knowledge(Language::of(clause), memory);
+            let found = self.premise(clause).and_then(|place| knowledge.find(&place, true).ok());
+            (found.is_none_or(|found| found.len() != 1)).then_some(clause)
+        };
+        several::sentences(text).into_iter().find_map(lost)
+    }
+
+    /// Whether a person says to be in, on or at something that may be a place: in no hurry, on no diet.
+    fn says_to_be_somewhere(&self, clause: &str) -> bool {
+        let keys = word_keys(clause);
+        let within = |n: &usize| {
+            let said = vocabulary::longest(&keys[*n..]);
+            matches!(
+                said,
+                Some((_, Mark::Link(Rel::In | Rel::On | Rel::At | Rel::NextTo | Rel::Near)))
+            )
+        };
+        let Some(at) = (1..keys.len()).find(within).filter(|_| opening::is_of_me(&keys)) else {
+            return false;
+        };
+        let stays = |key: &String| {
+            let said = vocabulary::longest(std::slice::from_ref(key));
+            matches!(
+                said,
+                Some((_, Mark::Be | Mark::Filler | Mark::Sit | Mark::LieDown | Mark::Me))
+            ) || is_first_person(key)
+                || key.ends_with("ing")
+                || SMALL.contains(&key.as_str())
+        };
+        let names = |key: &String| match Language::of(key) {
+            Language::English => set!("BeforeOwnPlace").contains(&key.as_str()),
+            Language::Russian => self.is_word(key) || !self.mind.lexicon.nouns.find(key).is_empty(),
+        };
+        keys[..at].iter().all(stays) && keys[at..].iter().any(names) && !several::asks_in(clause)
+    }
+
+    /// Whether a question counts from where the person is, who said to be nowhere that is known.
+    pub(super) fn counts_from_nowhere(&self, query: &Query, text: &str, memory: &Memory) -> bool {
+        let counts = || says_here(text) || query.clone().asked_at(&Noun::default()) != *query;
+        memory.astray.is_some() && !self.is_of_robot(text) && counts()
+    }
+
     /// Where the person was last said to be, where a question may count from there: what is asked of the robot counts from
     /// the robot.
     pub(super) fn person_at(&self, text: &str, memory: &Memory) -> Option<Noun> {
         let place = memory.person?;
+        let head = Head { named: vec![place], ..Head::default() };
+        (!self.is_of_robot(text)).then(|| Noun { head, ..Noun::default() })
+    }
+
+    /// Whether a text speaks of the robot.
+    fn is_of_robot(&self, text: &str) -> bool {
         let plain = self.plain(text);
         let to_robot = |item: &Item| match item {
             Item::Mark(Mark::You) => true,
@@ -184,9 +247,7 @@ impl Asker<'_> {
             Item::Place { nouns, .. } => nouns.iter().any(|p| p.person == Some(Mark::You)),
             _ => false,
         };
-        let items = Sentence::new(&plain, &self.mind.lexicon).items();
-        let head = Head { named: vec![place], ..Head::default() };
-        (!items.iter().any(to_robot)).then(|| Noun { head, ..Noun::default() })
+        Sentence::new(&plain, &self.mind.lexicon).items().iter().any(to_robot)
     }
 }
 
