@@ -39,6 +39,7 @@ mod floors;
 mod footprint;
 mod foreign;
 mod formats;
+mod four_turns;
 mod frames;
 mod furniture;
 mod generated_worlds;

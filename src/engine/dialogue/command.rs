@@ -50,6 +50,7 @@ impl Hearing<'_, '_> {
                     &error,
                     Error::Misheard(Misheard::WhichOf(_) | Misheard::Ambiguous { .. })
                 );
+                self.dialogue.memory.mishear();
                 if asks_back {
                     self.dialogue.open = Some(line.to_owned());
                 } else {

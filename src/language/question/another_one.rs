@@ -132,6 +132,12 @@ impl Asker<'_> {
         if many.is_some_and(|many| !so_many(many)) {
             return None;
         }
+        // Of several others none is the one that is meant.
+        let one = many.is_none() && !set!("OtherSeveral").contains(only);
+        let noun = match one && !is_one(&noun) {
+            true => Noun { text: (*only).to_owned(), plural: false, ..noun },
+            false => noun,
+        };
         if asks_where {
             return Some(Query::Where(noun));
         }

@@ -5,7 +5,7 @@ use super::mark::Mark;
 use super::query::Denial;
 use super::{Asker, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction};
 use crate::sets::set;
-use crate::words::word_keys;
+use crate::words::{Language, word_keys};
 
 impl Asker<'_> {
     /// «Сколько ламп в гостиной? – … – В спальне?», «Шторы в спальне закрыты? – … – В гостиной тоже?»: the same there.
@@ -196,6 +196,14 @@ impl Asker<'_> {
         replaced.map(|_| query)
     }
 
+    /// «Где они? А в гостиной?»: where others of the kind are, there.
+    pub(super) fn of_their_kind(&self, told: &Noun, places: Vec<Restriction>) -> Option<Query> {
+        let things = told.head.things.as_deref().filter(|_| !places.is_empty())?;
+        let kind = self.knowledge(Language::English, &Memory::default()).alike(things)?;
+        let head = Head { kinds: vec![kind], ..Head::default() };
+        Some(Query::Where(Noun { head, restrictions: places, plural: true, ..Noun::default() }))
+    }
+
     /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
     pub(super) fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
         // «Горит ли лампа в спальне? А на столе?»: the lamp there.
@@ -208,6 +216,7 @@ impl Asker<'_> {
             subject.restrictions = noun.restrictions;
             return Some(query);
         }
+        let asks_where = matches!(query, Query::Where(_));
         let asked = match &mut query {
             Query::Find(asked)
             | Query::Count(asked)
@@ -263,6 +272,9 @@ impl Asker<'_> {
         };
         // "Which rooms have chairs? How many? And upstairs?": those that were told are nowhere else.
         let told = asked.head.things.is_some() && asked.restrictions.is_empty();
+        if told && asks_where && asked.plural {
+            return self.of_their_kind(asked, noun.restrictions);
+        }
         if told && noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a))) {
             return None;
         }

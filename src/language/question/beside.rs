@@ -5,7 +5,7 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
-use super::{Asker, Head, Memory, Noun, Query, Rel, Restriction, Thing};
+use super::{Asker, Head, Memory, Noun, Query, Rel, Restriction, Thing, vocabulary};
 
 impl Asker<'_> {
     pub(super) fn on_a_side(&self, text: &str, memory: &Memory) -> Option<Query> {
@@ -23,12 +23,25 @@ impl Asker<'_> {
                 _ => return None,
             }
         }
+        let keys = &sentence.keys;
+        let anew = (0..keys.len()).any(|n| vocabulary::taken_by(Mark::Now, &keys[n..]).is_some());
         let rel = side.filter(|_| asks && !memory.is_lost)?;
         let exchange = memory.exchanges.first()?;
         let knowledge = self.knowledge(sentence.language, memory);
         let fits = |t: &Thing| t.replica().is_some() && knowledge.may_be_anchor(rel, *t);
-        let meant: Vec<Thing> = match exchange.topic().filter(fits) {
-            Some(topic) => vec![topic],
+        // "What is in the fridge? And in the box? What's inside now?": in the box once more, and not in what was found before.
+        let sought = memory.query.as_ref().and_then(Query::sought);
+        let before = sought.and_then(|noun| match &noun.restrictions[..] {
+            [place] if place.rel == rel && !place.negated => place.anchors.first(),
+            _ => None,
+        });
+        let before =
+            before.and_then(|anchor| knowledge.find(anchor, true).ok()).unwrap_or_default();
+        let topic = exchange.topic().filter(fits);
+        let meant: Vec<Thing> = match topic {
+            _ if !before.is_empty() && (memory.last.is_empty() || anew) => before,
+            Some(topic) if before.contains(&topic) => vec![topic],
+            Some(topic) => before.into_iter().chain([topic]).collect(),
             None => exchange.things().copied().filter(fits).collect(),
         };
         if meant.is_empty() {

@@ -129,7 +129,10 @@ impl Knowledge<'_> {
                 word.get_or_insert_with(|| noun.text.clone());
             }
             // "Which ones are nearer?" after nothing that is known.
-            let unsaid = points(noun) && noun.restrictions.is_empty() && noun.filters.is_empty();
+            // "Which one is in the kitchen?", of all that there is.
+            let placed = !matches!(query, Query::Find(_) | Query::Count(_) | Query::Where(_))
+                && !(noun.restrictions.is_empty() && noun.filters.is_empty());
+            let unsaid = points(noun) && noun.head.anything && !placed;
             if unsaid && noun.head.things.is_none() && noun.except.is_empty() {
                 word.get_or_insert_with(|| noun.text.clone());
             }
@@ -178,8 +181,12 @@ impl Knowledge<'_> {
     /// Puts for each place of a query that several things are, the one of them that was just spoken of.
     pub(super) fn focus(&self, query: &mut Query) {
         self.rooms_for_points(query);
+        self.is_among_those(query);
         if self.memory.exchanges.is_empty() && self.memory.listed.is_empty() {
-            query.each_noun(&mut |noun| self.this_room(&mut noun.restrictions));
+            query.each_noun(&mut |noun| {
+                self.room_beside_room(noun);
+                self.this_room(&mut noun.restrictions);
+            });
             self.put_together(query);
             return;
         }
@@ -203,10 +210,13 @@ impl Knowledge<'_> {
             self.of_those_told(noun);
             self.of_those_shown(noun);
         });
-        if self.asked_where() || self.asked_beside() {
-            query.each_noun(&mut |noun| self.rooms_there(noun));
-        }
         query.each_noun(&mut |noun| {
+            self.rooms_there(noun);
+            self.in_its_room(noun);
+        });
+        query.each_noun(&mut |noun| {
+            self.room_beside_room(noun);
+            self.places_there_alone(noun);
             self.focus_places(&mut noun.restrictions);
             self.this_room(&mut noun.restrictions);
             // "the bigger one" of several that were told
@@ -247,6 +257,7 @@ impl Knowledge<'_> {
         });
         self.put_together(query);
         self.keep_room(query);
+        self.in_no_room_itself(query);
         self.found_where(query);
         self.by_state(query);
         self.resume(query);
@@ -329,8 +340,9 @@ impl Knowledge<'_> {
             };
             let told = self.memory.exchanges.iter().find(bear);
             for anchor in place.anchors.iter_mut().filter(|a| points(a) && a.other) {
-                if let Some(rest) = self.other_bearing(rel) {
-                    anchor.head = Head { things: Some(rest), ..Head::default() };
+                if matches!(rel, Rel::On | Rel::In) {
+                    let things = Some(self.other_place(rel));
+                    anchor.head = Head { things, ..Head::default() };
                     anchor.other = false;
                 }
             }

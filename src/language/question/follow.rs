@@ -338,6 +338,14 @@ impl Asker<'_> {
             let place = Noun { restrictions, ..Noun::default() };
             return self.elsewhere(query, place).filter(|_| kind);
         }
+        // "How many phones are in the bedroom? Where are they? What about the living room?": where the phones there are.
+        if let (Query::Where(old), true, false) = (last, is_room, rooms)
+            && old.plural
+            && old.head.things.is_some()
+        {
+            let within = Restriction { rel: Rel::In, anchors: vec![noun], negated: false };
+            return self.of_their_kind(old, vec![within]);
+        }
         // A room may narrow several nouns of the question: all that mean what is replaced.
         let mut replaced: Option<Noun> = None;
         // "What colour is the floor in the kitchen? And the walls?": those of the kitchen.
@@ -563,7 +571,7 @@ fn keys_compare(keys: &[String]) -> bool {
 }
 
 /// Whether a relation says where things are, and not what they have or whose they are.
-fn is_place(place: &Restriction) -> bool {
+pub(super) fn is_place(place: &Restriction) -> bool {
     let other = [Rel::Has, Rel::Bears, Rel::Of, Rel::From, Rel::Opens, Rel::Through, Rel::To];
     !other.contains(&place.rel)
 }

@@ -273,6 +273,12 @@ impl Memory {
         }
     }
 
+    /// An order was not understood: «А в ванной?» goes on from no question before it.
+    pub fn mishear(&mut self) {
+        (self.query, self.pending) = (None, None);
+        self.counted.clear();
+    }
+
     /// Notes the things that a command named.
     pub fn mention(&mut self, things: &[Thing]) {
         self.hear_of_things(things);
@@ -352,6 +358,8 @@ const RECENT: usize = 4;
 pub(super) struct Exchange {
     /// What a singular pronoun takes up, in this order.
     topics: Vec<Thing>,
+    /// So many at the end of them only told where something is.
+    only_places: usize,
     /// The members of a list, none of which is more spoken of than the others.
     listed: Vec<Thing>,
     /// Whither an order went: "on it" is on that before it is on what was carried.
@@ -411,8 +419,9 @@ impl Exchange {
                 compared: answer.compared.clone(),
                 ..Self::default()
             },
-            _ => Self {
+            query => Self {
                 topics: found.chain(others()).collect(),
+                only_places: if matches!(query, Query::Where(_)) { others().count() } else { 0 },
                 compared: answer.compared.clone(),
                 ..Self::default()
             },
@@ -427,6 +436,11 @@ impl Exchange {
     /// What it was most about.
     pub(super) fn topic(&self) -> Option<Thing> {
         self.topics.first().copied()
+    }
+
+    /// Whether a thing was spoken of only to tell where another one is.
+    pub(super) fn is_only_place(&self, thing: Thing) -> bool {
+        self.topics[self.topics.len() - self.only_places..].contains(&thing)
     }
 
     /// What a singular pronoun takes up, in this order.

@@ -35,7 +35,9 @@ mod follow;
 mod grammar;
 mod heeded;
 mod here;
+mod introduced;
 mod knowledge;
+mod left_over;
 mod level_words;
 mod lexicon;
 mod mark;
@@ -98,7 +100,7 @@ use crate::command::is_too_long;
 use crate::map::World;
 use crate::semantics::Relations;
 use crate::sets::set;
-use crate::words::{Language, everyday as everyday_words, word_keys};
+use crate::words::{Language, word_keys};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;
@@ -427,48 +429,6 @@ impl Asker<'_> {
             && !other.into_iter().any(|mark| items.contains(&Item::Mark(mark)))
     }
 
-    /// Whether something here knows what a name means, whatever the map has: a sort of things, the word list, or the map
-    /// itself for a name with a number of its own ("cup 5").
-    fn is_word(&self, name: &str) -> bool {
-        let keys = word_keys(name);
-        let small = |key: &&String| set!("AnyArticle").contains(&key.as_str());
-        let keys: Vec<String> = keys.iter().skip_while(small).cloned().collect();
-        let numbered = keys.split_last().filter(|(last, _)| last.chars().all(char::is_numeric));
-        if let Some((_, rest)) = numbered {
-            return !rest.is_empty() && !self.mind.lexicon.nouns.find(&rest.join(" ")).is_empty();
-        }
-        let key = keys.join(" ");
-        everyday_words::is_a_thing(&key)
-            || everyday_words::is_in_list(&key)
-            || purposes::is_a_word(&key)
-    }
-
-    /// Whether a text has words for anything at all, known or not, that it may speak of: «А что внутри?» has none.
-    fn introduces(&self, text: &str) -> bool {
-        let text = self.plain(text);
-        let idle = |item: &Item| match item {
-            // «второй», "the other one" may be what was not understood.
-            Item::Mark(mark) => {
-                !matches!(mark, Mark::Rank(_) | Mark::One | Mark::Other | Mark::Best(_))
-            }
-            Item::Link(_) | Item::Property(_) => true,
-            _ => false,
-        };
-        let items = Sentence::new(&text, &self.mind.lexicon).items();
-        items.is_empty() || !items.iter().all(idle)
-    }
-
-    fn pronouns(&self, text: &str) -> Vec<Pronoun> {
-        let text = self.plain(text);
-        let items = Sentence::new(&text, &self.mind.lexicon).items();
-        let phrases = items.iter().flat_map(|item| match item {
-            Item::Noun(phrase) => std::slice::from_ref(phrase),
-            Item::Place { nouns, .. } => &nouns[..],
-            _ => &[],
-        });
-        phrases.filter_map(|phrase| phrase.pronoun).collect()
-    }
-
     /// The query that a text asks, without answering it.
     ///
     /// # Errors
@@ -630,8 +590,13 @@ impl Asker<'_> {
             let words = text.to_owned();
             return Err(Box::new((Doubt::NotUnderstood { words }, None)));
         }
+        let left = self.how_many_left(text, memory);
+        if let Some(None) = left {
+            return Err(Box::new((Doubt::not_understood(text), None)));
+        }
         let continued = || self.continued(text, memory).or_else(|| self.on_a_side(text, memory));
-        let mut query = match self.noted(text).or_else(continued) {
+        let is_left = left.is_some();
+        let mut query = match self.noted(text).or(left.flatten()).or_else(continued) {
             Some(query) => query,
             None => match self.read(text, memory) {
                 Ok(query) => query,
@@ -688,7 +653,9 @@ impl Asker<'_> {
             so: denial::truth(&Sentence::new(text, &self.mind.lexicon), &answer),
             ..answer
         });
+        // What is left is so now.
         if let Ok(answer) = &answer
+            && !is_left
             && let Some(doubt) = self.is_otherwise_now(answer, text, memory)
         {
             return Err(Box::new((doubt, Some(query))));

@@ -279,7 +279,13 @@ impl Asker<'_> {
         let parts = restrictions.iter().flat_map(|place: &Restriction| &place.anchors).all(part);
         let asks = counts && meant && parts && !restrictions.is_empty();
         let kind = knowledge.kind_of(only).filter(|_| asks)?;
-        let head = Head { kinds: vec![kind], ..Head::default() };
+        // "How many pictures are there? Where is the sofa? How many of them are in the hall?": of those that were several.
+        let several = memory.exchanges.iter().skip(1).map(memory::Exchange::members);
+        let mut several = several.filter(|all| all.len() > 1 && !all.contains(&only));
+        let head = match several.next() {
+            Some(all) => Head { things: Some(all.to_vec()), ..Head::default() },
+            None => Head { kinds: vec![kind], ..Head::default() },
+        };
         Some(Query::Count(Noun { head, restrictions, plural: true, ..Noun::default() }))
     }
 
@@ -295,6 +301,10 @@ impl Asker<'_> {
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let (mut rank, mut asks_where) = (None, false);
         for n in 0..sentence.keys.len() {
+            if rank.is_none() && set!("LastOfList").contains(&sentence.keys[n].as_str()) {
+                rank = Some(memory.listed.len() as u64);
+                continue;
+            }
             match vocabulary::longest(&sentence.keys[n..]) {
                 Some((_, Mark::Rank(told))) if rank.is_none() => rank = Some(told),
                 Some((_, Mark::Where)) => asks_where = true,

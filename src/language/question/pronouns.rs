@@ -11,6 +11,7 @@ use super::mark::{Mark, Pronoun};
 use super::memory::Exchange;
 use super::query::{Claim, Noun, Query, Rel, Thing};
 use super::vocabulary;
+use crate::sets::set;
 use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
 
 impl Knowledge<'_> {
@@ -66,11 +67,17 @@ impl Knowledge<'_> {
         let fitting = |admits: &dyn Fn(&Thing) -> bool| -> Vec<Thing> {
             let fits = |t: &Thing| self.agrees(pronoun, *t) && admits(t);
             let placed = matches!(rel, Some(Rel::On | Rel::In));
-            let rank = near.clone().find_map(|exchange| {
+            let rank = near.clone().enumerate().find_map(|(n, exchange)| {
                 if let Some(whither) = exchange.whither().filter(|t| placed && fits(t)) {
                     return Some(vec![whither]);
                 }
-                let topic = exchange.topics().iter().find(|t| fits(t)).map(|t| vec![*t]);
+                let topic = exchange.topics().iter().find(|t| fits(t)).map(|t| {
+                    // «Где вытяжка? А телевизор? – На тумбе. – Она большая?»: the hood as well as the stand.
+                    let mut before = near.clone().skip(n + 1).filter_map(Exchange::topic);
+                    let before = before.find(|other| fits(other) && other != t);
+                    let before = before.filter(|_| exchange.is_only_place(*t));
+                    before.into_iter().chain([*t]).collect()
+                });
                 let all_of = |all: &[Thing]| -> Vec<Thing> {
                     all.iter().copied().filter(|t| fits(t)).collect()
                 };
@@ -98,14 +105,12 @@ impl Knowledge<'_> {
         if let Some(doubt) = self.is_point_not_room(query) {
             return Some(doubt);
         }
-        // So many are told one by one.
-        const FEW: usize = 12;
-        let few = |noun: &Noun| noun.head.things.as_ref().is_none_or(|things| things.len() <= FEW);
-        match query {
-            Query::Where(noun) | Query::RoomOf(noun) if few(noun) => return None,
-            Query::Several(_) => return None,
-            _ => {}
+        if matches!(query, Query::Several(_)) {
+            return None;
         }
+        // "How many things are on the bed? – Three. – Where is it?": none of several that were asked after as such.
+        let told_each =
+            matches!(query, Query::Where(_) | Query::RoomOf(_)) && !self.memory.is_plural;
         let mut doubt = None;
         let single = |noun: &Noun| {
             let words = word_keys(&noun.text);
@@ -114,7 +119,8 @@ impl Knowledge<'_> {
                 _ => None,
             };
             let shown = words.last().is_some_and(|word| word == "one") && is_shown(noun);
-            shown || pronoun.is_some_and(|p| !matches!(p, Pronoun::They | Pronoun::There))
+            let it = pronoun.is_some_and(|p| !matches!(p, Pronoun::They | Pronoun::There));
+            !told_each && (shown || it) || is_another(&words)
         };
         let mut check = |noun: &Noun| {
             let several = noun.head.things.as_deref().filter(|things| things.len() > 1);
@@ -279,6 +285,45 @@ impl Knowledge<'_> {
         }
     }
 
+    /// «Где ручка? А вантуз? – В Ванной. – В какой комнате она?»: no room is asked after the room that it is in, where something
+    /// else may be meant.
+    pub(super) fn in_no_room_itself(&self, query: &mut Query) {
+        let Query::RoomOf(noun) = query else { return };
+        if let Some(things) = noun.head.things.as_mut().filter(|things| things.len() > 1)
+            && things.iter().any(|thing| thing.replica().is_some())
+        {
+            things.retain(|thing| thing.area().is_none());
+        }
+    }
+
+    /// "Which room is the sink in? How many chairs are in it?": in the room, as no chair is in a sink. Of what might be in either,
+    /// it is asked back.
+    pub(super) fn in_its_room(&self, noun: &mut Noun) {
+        if !matches!(self.memory.query, Some(Query::RoomOf(_))) || noun.head.anything {
+            return;
+        }
+        let Some(exchange) = self.memory.exchanges.first() else { return };
+        let Some(&room) = exchange.topics().iter().find(|t| t.area().is_some()) else { return };
+        let sought = self.base(&noun.head);
+        let inside = noun.restrictions.iter_mut().filter(|place| place.rel == Rel::In);
+        for anchor in inside.flat_map(|place| &mut place.anchors) {
+            let words = word_keys(&anchor.text);
+            let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { continue };
+            let Some(&[thing]) = anchor.head.things.as_deref() else { continue };
+            let within = self.related(Rel::In, thing);
+            if thing.replica().is_none()
+                || !self.agrees(pronoun, room)
+                || within.iter().any(|inside| sought.contains(inside))
+            {
+                continue;
+            }
+            let portable =
+                |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
+            let meant = if sought.iter().any(portable) { vec![thing, room] } else { vec![room] };
+            anchor.head.things = Some(meant);
+        }
+    }
+
     /// "Is there any fruit in the kitchen? Where is it?": what was found there, of which there is more than one, or what there
     /// is of it elsewhere; where the kitchen is was not wondered.
     pub(super) fn found_where(&self, query: &mut Query) {
@@ -313,4 +358,16 @@ impl Knowledge<'_> {
             claims.retain(|claim| !resumes(claim));
         }
     }
+}
+
+/// Whether words mean one other thing: "the other one", «другая».
+fn is_another(words: &[String]) -> bool {
+    let others = set!("OtherSeveral");
+    let other = |word: &String| {
+        set!("Another").contains(&word.as_str()) && !others.contains(&word.as_str())
+    };
+    let small = |word: &String| {
+        set!("TheOrA").contains(&word.as_str()) || set!("OneOrAny").contains(&word.as_str())
+    };
+    words.iter().any(other) && words.iter().all(|word| other(word) || small(word))
 }

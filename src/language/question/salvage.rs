@@ -79,6 +79,13 @@ impl Asker<'_> {
                     matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Activity(_))));
                 let cuts = span[..words[n].start].ends_with(['\'', '’']);
                 let asks = keys[n] != "ли" && !activity && opening::asks_at_once(&keys[n..]);
+                // "And in the other one?" asks of no other one by itself.
+                let governs = n > 0
+                    && matches!(
+                        vocabulary::longest(&keys[n - 1..n]),
+                        Some((_, Mark::Link(_) | Mark::The | Mark::A))
+                    );
+                let cuts = cuts || governs;
                 !joint && !cuts && (n == 0 || reported || asks)
             };
             let begins = (0..words.len().min(MOST_WORDS)).filter(|n| at_once(*n));

@@ -25,7 +25,7 @@ impl Knowledge<'_> {
                 there.extend(things.filter_map(|anchor| anchor.head.things.clone()).flatten());
             });
         }
-        if there.len() > 1 && self.memory.told_place.is_none() {
+        if !there.is_empty() && self.memory.told_place.is_none() {
             return there;
         }
         let last = &self.memory.last;
@@ -171,7 +171,8 @@ impl Knowledge<'_> {
         self.place_of(Thing::Entity(Entity::Replica(id))).or(Some(latest).filter(|_| bears(latest)))
     }
 
-    /// «Где тарелки? Сколько там стульев?»: what stands on the floor is not where they lie, but in the rooms of that.
+    /// «Где тарелки? Сколько там стульев?», «Что на кровати? Сколько там картин?»: what stands on the floor or hangs on walls is
+    /// not where they lie, but in the rooms of that.
     pub(super) fn rooms_there(&self, noun: &mut Noun) {
         let sought = self.base(&noun.head);
         let carried = |t: &Thing| t.replica().is_none_or(|id| self.world.has_trait(id, "portable"));
@@ -180,7 +181,13 @@ impl Knowledge<'_> {
             let Some(places) = anchor.head.things.as_deref() else { continue };
             let lies = |place: &Thing| self.related(Rel::There, *place);
             let fits = places.iter().flat_map(lies).any(|thing| sought.contains(&thing));
-            if fits || sought.is_empty() || sought.iter().any(carried) {
+            // «А на кухне? – Ваза-1. – Сколько их там?»: no vase is in itself.
+            let itself = places.iter().all(|place| sought.contains(place));
+            if itself && let Some(place) = self.place_asked_of() {
+                anchor.head.things = Some(vec![place]);
+                continue;
+            }
+            if fits || sought.is_empty() || !itself && sought.iter().any(carried) {
                 continue;
             }
             let rooms: BTreeSet<Thing> = places
@@ -191,6 +198,60 @@ impl Knowledge<'_> {
                 })
                 .collect();
             anchor.head.things = Some(rooms.into_iter().collect());
+        }
+    }
+
+    /// "How many chairs are in the room next to the kitchen?": the room is beside it, and not the chairs.
+    pub(super) fn room_beside_room(&self, noun: &mut Noun) {
+        let are_rooms = |anchor: &Noun| {
+            let base = self.base(&anchor.head);
+            !base.is_empty() && base.iter().all(|thing| thing.area().is_some())
+        };
+        let [place, beside] = &mut noun.restrictions[..] else { return };
+        let told = |r: &Restriction| !r.negated && r.anchors.iter().all(are_rooms);
+        let any = |anchor: &Noun| is_one(anchor) && anchor.head.named.is_empty();
+        if let [room] = &mut place.anchors[..]
+            && any(room)
+            && are_rooms(room)
+            && matches!(place.rel, Rel::In | Rel::On)
+            && matches!(beside.rel, Rel::NextTo | Rel::Near)
+            && told(beside)
+        {
+            room.restrictions.push(beside.clone());
+            noun.restrictions.pop();
+        }
+    }
+
+    /// "How many pillows are on the bed there?": the bed that is there.
+    pub(super) fn places_there_alone(&self, noun: &mut Noun) {
+        let there = noun.restrictions.iter().filter(|place| place.rel == Rel::There);
+        let there: Vec<Thing> = there
+            .flat_map(|place| &place.anchors)
+            .flat_map(|anchor| anchor.head.things.iter().flatten().copied())
+            .collect();
+        let places = noun.restrictions.iter_mut().filter(|place| place.rel != Rel::There);
+        for anchor in places.flat_map(|place| &mut place.anchors).filter(|anchor| is_one(anchor)) {
+            let found = self.find(anchor, false).unwrap_or_default();
+            let within = |thing: &&Thing| {
+                let is_in = |place: &Thing| self.related(Rel::There, *place).contains(*thing);
+                there.iter().any(is_in)
+            };
+            let mut within = found.iter().filter(within);
+            if let (true, Some(only), None) = (found.len() > 1, within.next(), within.next()) {
+                let text = std::mem::take(&mut anchor.text);
+                *anchor = Noun { text, ..Noun::of(vec![*only]) };
+            }
+        }
+    }
+
+    /// The one place in which the last question sought something.
+    fn place_asked_of(&self) -> Option<Thing> {
+        let sought = self.memory.query.as_ref()?.sought()?;
+        let [place] = &sought.restrictions[..] else { return None };
+        let [anchor] = &place.anchors[..] else { return None };
+        match self.find(anchor, true).ok()?[..] {
+            [only] if matches!(place.rel, Rel::In | Rel::On) && !place.negated => Some(only),
+            _ => None,
         }
     }
 

@@ -9,7 +9,7 @@ use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId};
 use super::mark::{Mark, Pronoun};
 use super::memory::{Exchange, is_of_whereabouts};
-use super::query::{Extreme, Head, Noun, Query, Rel, Restriction, Thing};
+use super::query::{Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Asker, Memory, vocabulary};
 use crate::map::Entity;
 use crate::sets::set;
@@ -107,6 +107,20 @@ impl Knowledge<'_> {
         noun.head = Head { things: Some(those), ..Head::default() };
     }
 
+    /// "What else is there? – A vase and a box. – Is the box among them?": whether there is one among those that were told.
+    pub(super) fn is_among_those(&self, query: &mut Query) {
+        let Query::Holds { subject, claims, denial } = query else { return };
+        let [Claim::Related(place)] = &claims[..] else { return };
+        let [anchor] = &place.anchors[..] else { return };
+        let told = anchor.head.things.as_ref().filter(|things| things.len() > 1);
+        let are_things = told.is_some_and(|things| things.iter().all(|t| t.replica().is_some()));
+        if are_things && matches!(place.rel, Rel::Of | Rel::From) && !place.negated {
+            let mut sought = subject.clone();
+            sought.restrictions.push(place.clone());
+            *query = Query::Exists { what: vec![sought], either: false, denial: *denial };
+        }
+    }
+
     /// "Are these books red?": those of the latest that were told together, else one by one.
     pub(super) fn of_those_shown(&self, noun: &mut Noun) {
         // After what was sought in vain, "these" are none.
@@ -142,7 +156,13 @@ impl Knowledge<'_> {
     /// "The other one", «остальные»: what was told together with those that were told last, else the others of the
     /// kind of what was spoken of.
     pub(super) fn complement(&self) -> Option<Vec<Thing>> {
-        let told = &self.memory.last;
+        // "What is the lamp on? – Table 1. – And the other one?": the other lamp.
+        let subject = match &self.memory.query {
+            Some(Query::Anchor { of, .. } | Query::RoomOf(of)) => self.find(of, true).ok(),
+            _ => None,
+        };
+        let subject = subject.filter(|found| found.len() == 1);
+        let told = subject.as_ref().unwrap_or(&self.memory.last);
         let wider = |exchange: &Exchange| {
             let all = exchange.members();
             let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
@@ -198,15 +218,45 @@ impl Knowledge<'_> {
     }
 
     /// "And on the other one?": of what was spoken of, the others of the kind of what may bear or hold something.
-    pub(super) fn other_bearing(&self, rel: Rel) -> Option<Vec<Thing>> {
+    fn other_bearing(&self, rel: Rel) -> Option<Vec<Thing>> {
         if !matches!(rel, Rel::On | Rel::In) {
             return None;
         }
         let exchange = self.memory.exchanges.first()?;
-        let meant = exchange.things().find(|thing| self.may_be_anchor(rel, **thing)).copied()?;
+        let otherwise = self.places_otherwise(rel);
+        let fits = |thing: &&Thing| self.may_be_anchor(rel, **thing) && !otherwise.contains(*thing);
+        let meant = exchange.things().find(fits).copied()?;
         let all = self.members(&self.lexicon().kind(self.kind_of(meant)?).extension);
         let rest: Vec<Thing> = all.into_iter().filter(|thing| *thing != meant).collect();
         (!rest.is_empty()).then_some(rest)
+    }
+
+    /// The places of the last question that something lay to otherwise: "How many pillows are on the bed there? And in the
+    /// other one?" asks of no bed.
+    fn places_otherwise(&self, rel: Rel) -> HashSet<Thing> {
+        let mut places = HashSet::new();
+        if let Some(mut query) = self.memory.query.clone() {
+            query.each_noun(&mut |noun| {
+                let is_other = |place: &&Restriction| {
+                    place.rel != rel && matches!(place.rel, Rel::On | Rel::In)
+                };
+                let told = noun.restrictions.iter().filter(is_other);
+                let things = told.flat_map(|place| &place.anchors);
+                places.extend(things.filter_map(|a| a.head.things.clone()).flatten());
+            });
+        }
+        places
+    }
+
+    /// The other one, where something is on it or in it: what else was told together and may be so, or nothing.
+    pub(super) fn other_place(&self, rel: Rel) -> Vec<Thing> {
+        let otherwise = self.places_otherwise(rel);
+        let unlike = |thing: &Thing| {
+            let kind = self.kind_of(*thing);
+            kind.is_none() || otherwise.iter().all(|other| self.kind_of(*other) != kind)
+        };
+        let told = || self.complement().filter(|rest| rest.iter().all(unlike));
+        self.other_bearing(rel).or_else(told).unwrap_or_default()
     }
 
     /// What a question word without a noun asks among: those that were told, else what was asked for.

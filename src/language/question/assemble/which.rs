@@ -326,10 +326,14 @@ impl Frame<'_, '_> {
                 noun.filters.extend(other.noun.filters.iter().cloned());
                 noun.best = noun.best.take().or_else(|| other.noun.best.clone());
             }
-            // "Which of them are plates?"
+            // "Which of them are plates?", but "which of them is nearest to the plate?"
+            let measured = |at: usize| {
+                let to = |m: &Mark| matches!(m, Mark::BestTo(_) | Mark::Nearer(_) | Mark::ThanTo);
+                self.marks.iter().any(|(mark, before)| to(mark) && *before < at)
+            };
             let sorts = |s: &&&Subject| {
                 let bare = s.noun.filters.is_empty() && s.noun.restrictions.is_empty();
-                s.at > asked.at && bare && !s.noun.head.kinds.is_empty()
+                s.at > asked.at && bare && !s.noun.head.kinds.is_empty() && !measured(s.at)
             };
             let of_them = noun.head.things.is_some() && self.is_one_of(asked.at);
             if of_them && link.is_none() && !self.has(Mark::Have) {

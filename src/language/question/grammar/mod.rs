@@ -603,7 +603,13 @@ impl<'t> Sentence<'t> {
                     && !self.is_asked_of(input.0[0].from, next, after.0)
                     && next.readings.iter().any(|r| r.has_case(Case::Genitive)) =>
             {
-                let owner = noun_of(next, *from as usize..*to as usize);
+                let mut owner = noun_of(next, *from as usize..*to as usize);
+                // «двери туалетов», where one of them is called «Туалет».
+                let genitive = next.readings.iter().filter(|r| r.has_case(Case::Genitive));
+                owner.plural = genitive.clone().all(|r| !r.is_singular());
+                if owner.plural && !owner.head.kinds.is_empty() {
+                    owner.head.named.clear();
+                }
                 Ok((after, Some(found), Some((Rel::Of, owner))))
             }
             // "Where can I watch TV?": after who does it stands what is done.

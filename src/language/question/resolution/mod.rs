@@ -481,6 +481,7 @@ impl Resolver<'_, '_> {
                     && matches!(sort, Sort::Go | Sort::Put | Sort::Carry)
                     && let Some(thing) = spoken_of
                 {
+                    let thing = self.no_place_of_its_own(thing, objects, told, phrase)?;
                     edits.extend(self.to_there(thing, sort, phrase, clause.items, told.upon)?);
                 }
                 continue;

@@ -8,7 +8,8 @@ use crate::command::{self, Sort};
 use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::grammar::{Item, Phrase};
-use crate::question::mark::Mark;
+use crate::question::mark::{Mark, Pronoun};
+use crate::question::memory::Exchange;
 use crate::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
 use crate::words::{Case, Language};
@@ -394,6 +395,33 @@ impl Resolver<'_, '_> {
             }
             false => Ok(Some(places)),
         }
+    }
+
+    /// «Положи книгу на кровать. Где газета? Отнеси её туда же»: "there" is whither the last order went, never where what is
+    /// carried is itself.
+    pub(super) fn no_place_of_its_own(
+        &self,
+        thing: Thing,
+        objects: &[(usize, &Phrase)],
+        told: &Told,
+        there: &Phrase,
+    ) -> Result<Thing, (Doubt, Range<usize>)> {
+        let memory = self.knowledge.memory;
+        let spoken = memory.last_things();
+        let carries = |(_, phrase): &(usize, &Phrase)| match phrase.pronoun {
+            Some(Pronoun::They) => spoken.contains(&thing),
+            Some(_) => memory.last_thing() == Some(thing),
+            None => false,
+        };
+        let itself = told.things.contains(&thing) || objects.iter().any(carries);
+        if told.has_named || memory.told_place.is_some() || !itself {
+            return Ok(thing);
+        }
+        let before = memory.exchanges.iter().find_map(Exchange::whither);
+        before.filter(|place| *place != thing && !told.things.contains(place)).ok_or_else(|| {
+            let word = there.noun.text.clone();
+            (Doubt::NoReferent { word }, self.bytes(&there.words))
+        })
     }
 
     /// «туда»: to what was spoken of; what is brought goes onto it, or into what holds things. None where "on it" says whither.
