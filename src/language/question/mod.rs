@@ -310,6 +310,9 @@ impl Asker<'_> {
             return Err(self.knowledge(language, memory).unanswered(Doubt::TooLong { length }));
         }
         let text = self.without_self_doubt(text).unwrap_or(text);
+        if self.is_astray(text) {
+            Self::lose_person(text, memory);
+        }
         if let Some(answer) = self.told_where(text, language, memory) {
             return Ok(answer);
         }
