@@ -164,8 +164,7 @@ impl Asker<'_> {
         let alone = items.iter().any(place) && items.iter().all(small);
         // "The one in the bedroom: what is it standing on?", «Я про спальню: сколько там картин?»
         let taken_up = !self.pronouns(asked).is_empty() || self.says_there(asked);
-        self.limits(text)
-            || !taken_up && (set!("Narrowing").iter().any(|phrase| narrows(&phrase)) || alone)
+        self.limits(text) || !taken_up && (set!("Narrowing").iter().any(narrows) || alone)
     }
 
     fn is_lift(&self, area: AreaId) -> bool {
