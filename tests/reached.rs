@@ -194,3 +194,74 @@ fn what_is_gone_through_is_gone_through_from_afar() {
     }
     assert!(done > 8 && near > 2, "{done} done, {near} from afar");
 }
+
+/// Who is told to close the door behind itself closes one through which it has come, or says that there is none.
+#[test]
+fn the_door_behind_oneself_is_one_that_was_gone_through() {
+    let maps = HOUSES.map(|house| format!("../shared/data/procthor/house_{house}.json"));
+    let scene = "../shared/data/virtualhome/TestScene3_graph.json".to_owned();
+    let (mut closed, mut asked) = (0, 0);
+    for path in maps.into_iter().chain([scene]) {
+        let Some(first) = engine(&path) else { return };
+        let rooms: Vec<String> =
+            first.world().unwrap().areas.values().map(|area| area.name_en.clone()).collect();
+        for room in rooms {
+            let mut engine = engine(&path).unwrap();
+            let line = format!("Go to the {room} and close the door behind you");
+            let heard = hear(&mut engine, &mut Dialogue::default(), &line);
+            asked += usize::from(heard.tasks().next().is_none());
+            for task in heard.tasks() {
+                let of = |action: &str| {
+                    let reports = task.reports.iter().map(|report| &report.directive);
+                    let own = reports.filter(|directive| directive.action.starts_with(action));
+                    own.flat_map(|directive| directive.args.clone()).collect::<Vec<_>>()
+                };
+                let doors = &engine.world().unwrap().doors;
+                let is_door = |name: &str| doors.values().any(|door| door.name == name);
+                for door in of("Закрыть-дверь").iter().filter(|name| is_door(name)) {
+                    assert!(
+                        of("Движение-из_в_через-дверь").contains(door),
+                        "{path}: {line}: {door}"
+                    );
+                    closed += 1;
+                }
+            }
+        }
+    }
+    assert!(closed > 5 && asked > 5, "{closed} closed, {asked} asked back");
+}
+
+/// "To the fridge" leaves open whether into it or onto it: nothing that shuts others in has things put onto it unasked.
+#[test]
+fn to_what_shuts_things_in_is_asked_back() {
+    let mut asked = 0;
+    for map in
+        ["procthor/house_3.json", "procthor/house_5.json", "virtualhome/TestScene3_graph.json"]
+    {
+        let Some(mut engine) = engine(&format!("../shared/data/{map}")) else { return };
+        let world = engine.world().unwrap().clone();
+        let has = |id, wanted: &str| world.has_trait(id, wanted);
+        let thing = world
+            .replicas
+            .values()
+            .find(|r| has(r.id, "portable") && r.name_en.starts_with("Book"));
+        let thing = &*thing.expect("there is a book").name_en;
+        let shuts = world.replicas.values().filter(|r| {
+            has(r.id, "container")
+                && !["support", "seat", "bed", "portable"].iter().any(|t| has(r.id, t))
+                && orthoframe_map::stands(&world, r).is_some()
+        });
+        for holder in shuts {
+            let lines = [
+                format!("Take {thing} to {}", holder.name_en),
+                format!("Carry {thing} over to {}", holder.name_en),
+            ];
+            for line in lines {
+                let heard = hear(&mut engine, &mut Dialogue::default(), &line);
+                assert_eq!(heard.tasks().count(), 0, "{line}: {}", heard.text());
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 4, "{asked} asked back");
+}
