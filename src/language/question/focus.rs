@@ -130,8 +130,9 @@ impl Knowledge<'_> {
             }
             // "Which ones are nearer?" after nothing that is known.
             // "Which one is in the kitchen?", of all that there is.
-            let placed = !matches!(query, Query::Find(_) | Query::Count(_) | Query::Where(_))
-                && !(noun.restrictions.is_empty() && noun.filters.is_empty());
+            let bare = noun.restrictions.is_empty() && noun.filters.is_empty();
+            let seeks = matches!(query, Query::Find(_) | Query::Count(_) | Query::Where(_));
+            let placed = !seeks && !bare;
             let unsaid = points(noun) && noun.head.anything && !placed;
             if unsaid && noun.head.things.is_none() && noun.except.is_empty() {
                 word.get_or_insert_with(|| noun.text.clone());

@@ -80,11 +80,12 @@ impl Asker<'_> {
                 let cuts = span[..words[n].start].ends_with(['\'', '’']);
                 let asks = keys[n] != "ли" && !activity && opening::asks_at_once(&keys[n..]);
                 // "And in the other one?" asks of no other one by itself.
-                let governs = n > 0
-                    && matches!(
-                        vocabulary::longest(&keys[n - 1..n]),
-                        Some((_, Mark::Link(_) | Mark::The | Mark::A))
-                    );
+                let is_link = |n: usize| {
+                    matches!(vocabulary::longest(&keys[n..=n]), Some((_, Mark::Link(_))))
+                };
+                let article = n > 0 && set!("TheOrA").contains(&keys[n - 1].as_str());
+                let before = n.checked_sub(1 + usize::from(article));
+                let governs = !reported && before.is_some_and(is_link);
                 let cuts = cuts || governs;
                 !joint && !cuts && (n == 0 || reported || asks)
             };

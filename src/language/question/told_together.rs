@@ -204,7 +204,14 @@ impl Knowledge<'_> {
         };
         // "Where is the television? – On Cabinet 2. – And the other one?": no cabinet, where there is one television.
         if let [only] = told[..] {
-            return others(&only);
+            // "What is next to the tap? – A glass. – Where is the other one?": the other tap, or the other glass.
+            let beside = self.asked_beside() && subject.is_none();
+            let by = self.memory.exchanges.first().filter(|_| beside);
+            let by = by.into_iter().flat_map(Exchange::topics).filter(|t| **t != only);
+            let by: Vec<Thing> = by.filter_map(others).flatten().collect();
+            let own = others(&only).unwrap_or_default();
+            let rest: Vec<Thing> = own.into_iter().chain(by).collect();
+            return (!rest.is_empty()).then_some(rest);
         }
         let topics = self.memory.exchanges.first()?.topics();
         if let Some(rest) = topics.iter().find_map(others) {
