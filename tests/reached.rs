@@ -67,8 +67,7 @@ fn one_that_cannot_be_reached_lets_the_rest_be_done() {
         let taken = |name: &str| {
             let mut engine = engine(&path).unwrap();
             let heard = hear(&mut engine, &mut Dialogue::default(), &format!("Take {name}"));
-            let ending = heard.tasks().next().map(|task| task.ending.is_done());
-            ending
+            heard.tasks().next().map(|task| task.ending.is_done())
         };
         let reached =
             |wanted: bool| names.iter().copied().filter(move |n| taken(n) == Some(wanted));
