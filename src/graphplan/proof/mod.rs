@@ -117,8 +117,8 @@ const CHOICES_A_CONFLICT: u64 = 100;
 const CHOICES_A_LEVEL: u64 = 128;
 
 /// What a proof by induction may spend, in variables set by the solver: so much by the square of the levels past
-/// level-off, but no more than half of what all else took, and besides such a part of what the other ways spent, a choice of the
-/// search counted for so many.
+/// level-off, but no more than half of what all else took, and besides such a part of what the other ways spent, a
+/// choice of the search counted for so many.
 const EFFORT_A_LEVEL: u64 = 1 << 10;
 const INDUCTION_SHARE: u64 = 8;
 const INDUCTION_A_CHOICE: u64 = 2;
