@@ -240,6 +240,30 @@ fn more_here_than_there_is_as_the_counts_say() {
     assert!(compared > 20, "{compared}");
 }
 
+/// "Are there more red chairs than blue ones?", where the map does not tell of what colour they are.
+#[test]
+fn of_whose_colour_nothing_is_told_there_are_not_equally_many() {
+    let mut unknown = 0;
+    for house in HOUSES {
+        let Some(engine) = of_others(house) else { return };
+        for kind in kinds(engine.world().unwrap()).keys().step_by(3) {
+            for (one, other) in [("red", "blue"), ("metal", "wooden"), ("black", "white")] {
+                let many = |value: &str| {
+                    let line = format!("Are there any {value} {kind}s?");
+                    answered(&engine, &line).is_ok_and(|answer| answer.said == Said::Unknown)
+                };
+                let line = format!("Are there more {one} {kind}s than {other} {kind}s?");
+                let Ok(answer) = answered(&engine, &line) else { continue };
+                if many(one) || many(other) {
+                    assert_eq!(answer.said, Said::Unknown, "{line}\n  {}", answer.text);
+                    unknown += 1;
+                }
+            }
+        }
+    }
+    assert!(unknown > 20, "{unknown}");
+}
+
 /// What lies in a sink or a basin is told where one asks what is on it.
 #[test]
 fn what_is_on_a_thing_that_nothing_shuts_is_told_with_what_is_in_it() {

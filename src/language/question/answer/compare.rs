@@ -474,6 +474,9 @@ impl Knowledge<'_> {
         if found[0] == found[1] && !found[0].is_empty() {
             return Err(Doubt::not_understood(&of[1].text));
         }
+        if let Some(untold) = of.iter().find_map(|noun| self.uncounted(noun)) {
+            return Ok(Draft::new(Said::Unknown, untold));
+        }
         let numbers = [found[0].len(), found[1].len()];
         let (fewer, equal) = (extreme == Extreme::Fewest, numbers[0] == numbers[1]);
         let first = if fewer { numbers[0] <= numbers[1] } else { numbers[0] >= numbers[1] };

@@ -193,7 +193,11 @@ impl Knowledge<'_> {
             let seen = self.pick(" (если смотреть с моего места)", " (as seen from where I stand)");
             draft.text = format!("{}{seen}", draft.text.trim_end_matches('.'));
         }
-        if let Some(untold) = self.all_untold(query).filter(|_| draft.things.is_empty()) {
+        if let Some(untold) = query
+            .sought()
+            .and_then(|noun| self.all_untold(noun))
+            .filter(|_| draft.things.is_empty())
+        {
             draft.text = untold;
             draft.said = Some(Said::Unknown);
         }
@@ -239,8 +243,7 @@ impl Knowledge<'_> {
     }
 
     /// «Есть ли грязные тарелки?» where the map says of no plate whether it is dirty.
-    fn all_untold(&self, query: &Query) -> Option<String> {
-        let noun = query.sought()?;
+    fn all_untold(&self, noun: &Noun) -> Option<String> {
         let [filter] = &noun.filters[..] else { return None };
         if filter.negated || noun.head.anything || noun.best.is_some() {
             return None;
@@ -250,6 +253,18 @@ impl Knowledge<'_> {
             return None;
         }
         self.unsaid(&self.lexicon().values.entry(filter.value).property, &all)
+    }
+
+    /// "Are there more red chairs than blue ones?": those of which the map does not tell it may be either.
+    fn uncounted(&self, noun: &Noun) -> Option<String> {
+        let [filter] = &noun.filters[..] else { return None };
+        let property = &self.lexicon().values.entry(filter.value).property;
+        if !matches!(property, Property::Colour | Property::Material) {
+            return self.all_untold(noun);
+        }
+        let mut all = self.find(&Noun { filters: Vec::new(), ..noun.clone() }, true).ok()?;
+        all.retain(|thing| !self.tells(*thing, filter));
+        self.unsaid(property, &all)
     }
 
     /// "Are there glass things in the kitchen?", where none that the map tells of is: of how many it does not tell. What has no
