@@ -8,7 +8,7 @@ use orthoframe_exchange::{
     ImportError, Imported, Options, Room, Synonyms, Treatment, Vocabulary, What, file_text, read,
     read_rmf, read_virtualhome,
 };
-use orthoframe_map::{DoorState, World, check};
+use orthoframe_map::{DoorState, Replica, World, check};
 use orthoframe_units::{AreaId, Cm, MapId, Point};
 
 use crate::files::{project, shared};
@@ -99,6 +99,30 @@ fn the_office_arrives_with_its_doors() {
         taken(&office, What::Thing).1,
         79 + office.world.objects.values().filter(|o| o.name == "Перегородка").count()
     );
+}
+
+/// "OfficeChairBlack", "MetalCabinetYellow": as many things have a colour as the file has models whose names end in it, but
+/// for what stands outside.
+#[test]
+fn colours_in_the_names_of_models_arrive() {
+    for name in ["rmf/office.building.yaml", "rmf/clinic.building.yaml"] {
+        let Some(imported) = imported(name) else { return };
+        let text = std::fs::read_to_string(shared(name).expect("it was read")).unwrap();
+        let models = || text.split("model_name: ").skip(1);
+        let (taken, found) = taken(&imported, What::Thing);
+        for colour in ["Black", "Blue", "Grey", "Yellow"] {
+            let called =
+                |model: &&str| model.split([',', '}']).next().is_some_and(|n| n.ends_with(colour));
+            let called = models().filter(called).count();
+            let is = |replica: &&Replica| {
+                let object = &imported.world.objects[&replica.object];
+                object.properties.get("ЦВЕТ").is_some_and(|is| *is == colour.to_lowercase())
+            };
+            let coloured = imported.world.replicas.values().filter(is).count();
+            assert!(coloured <= called, "{name} {colour}: {coloured} of {called}");
+            assert!(coloured + found - taken >= called, "{name} {colour}: {coloured} of {called}");
+        }
+    }
 }
 
 #[test]

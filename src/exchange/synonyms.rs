@@ -4,13 +4,14 @@
 //! numbers are left aside. Of a room the longest run of parts that the table knows wins, the last of equally long ones:
 //! *Anna's bedroom* is a bedroom. A thing is never told by a part of its word, for a *shower glass* is no glass, a *coat
 //! rack* no rack and a *cup holder* no cup: the whole word stands in the table, or it is a *head* (a noun of which every
-//! compound is one: any *… chair* is a chair) with words before it or a maker's name behind a hyphen (`Chair-Breuer`), or words of the table's `plain` list are beside it,
-//! which say how a thing looks and never what it is.
+//! compound is one: any *… chair* is a chair) with words before it or a maker's name behind a hyphen (`Chair-Breuer`), or words of the
+//! table's `plain`, `colour` and `material` lists are beside it, which say how a thing looks and never what it is.
 //!
 //! **Invariant.** Names of one list are distinct; a user's table is laid over the built-in one: entries of the same
 //! name are replaced field by field, words of both stay, and of one word the later meaning holds.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::ops::Range;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -70,6 +71,10 @@ pub struct Synonyms {
     codes: Vec<Code>,
     /// Words for how a thing looks.
     plain: HashSet<String>,
+    /// Those of them that tell the value of a property, by its name in maps.
+    looks: HashMap<String, &'static str>,
+    /// The words of makers' models, in which such a word is no part of a name.
+    models: HashSet<Vec<String>>,
 }
 
 /// A found meaning, with the size of this very model where the table has one.
@@ -102,6 +107,10 @@ struct TableFile {
     code: Vec<Code>,
     #[serde(default)]
     plain: Vec<String>,
+    #[serde(default)]
+    colour: Vec<String>,
+    #[serde(default)]
+    material: Vec<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -153,7 +162,13 @@ impl Synonyms {
     /// When the built-in text is broken, which a test excludes.
     #[must_use]
     pub fn built_in() -> Self {
-        let mut table = Self { lists: BTreeMap::new(), codes: Vec::new(), plain: HashSet::new() };
+        let mut table = Self {
+            lists: BTreeMap::new(),
+            codes: Vec::new(),
+            plain: HashSet::new(),
+            looks: HashMap::new(),
+            models: HashSet::new(),
+        };
         table
             .lay_over(&Source::new("rules/import-synonyms.toml", *SYNONYMS))
             .expect("the built-in table is sound");
@@ -200,6 +215,12 @@ impl Synonyms {
             }
         }
         self.plain.extend(file.plain.iter().flat_map(|word| parts(word)));
+        for (property, words) in [("ЦВЕТ", file.colour), ("МАТЕРИАЛ", file.material)] {
+            for part in words.iter().flat_map(|word| parts(word)) {
+                self.plain.insert(part.clone());
+                self.looks.insert(part, property);
+            }
+        }
         let objects = self.lists.entry(Vocabulary::Object).or_default();
         for model in file.model {
             let Some(&meaning) = objects.by_name.get(&name_key(&model.object)) else {
@@ -220,6 +241,7 @@ impl Synonyms {
                 ));
             }
             objects.add_phrase(&model.word, meaning, model.size);
+            self.models.insert(parts(&model.word));
         }
         let areas = self.lists.entry(Vocabulary::Area).or_default();
         for code in file.code {
@@ -275,6 +297,35 @@ impl Synonyms {
         None
     }
 
+    /// What a thing's word tells of its colour and material beside its name, as properties of maps: an `OfficeChairBlack` is
+    /// black, a whiteboard is not said to be white.
+    #[must_use]
+    pub fn looks(&self, word: &str) -> Vec<(&'static str, String)> {
+        let parts = parts(word);
+        let letters: Vec<&str> = parts.iter().map(String::as_str).collect();
+        let Some(list) = self.lists.get(&Vocabulary::Object) else { return Vec::new() };
+        let core = self.core(&letters);
+        let is_named = match list.lookup(&letters) {
+            Some(_) => self.models.contains(&parts),
+            None => list.lookup(&letters[core.clone()]).is_some(),
+        };
+        let beside = letters[..core.start].iter().chain(&letters[core.end..]);
+        let mut told: Vec<(&'static str, String)> = beside
+            .filter(|_| is_named)
+            .filter_map(|part| Some((*self.looks.get(*part)?, (*part).to_owned())))
+            .collect();
+        let all = told.clone();
+        told.retain(|(property, _)| all.iter().filter(|(other, _)| other == property).count() == 1);
+        told
+    }
+
+    /// What is plain stands before the name or behind it; within it, it is part of the name.
+    fn core(&self, letters: &[&str]) -> Range<usize> {
+        let is_plain = |part: &&str| self.plain.contains(*part);
+        let from = letters.iter().take_while(|p| is_plain(p)).count();
+        from..letters.len() - letters[from..].iter().rev().take_while(|p| is_plain(p)).count()
+    }
+
     /// What a thing's word means: as a whole, without words for its looks, or by the head of a compound.
     fn thing(&self, list: &List, letters: &[&str]) -> Option<Found<'_>> {
         let found = |run: &[&str], is_whole| {
@@ -285,11 +336,7 @@ impl Synonyms {
         if let Some(found) = found(letters, true) {
             return Some(found);
         }
-        let is_plain = |part: &&str| self.plain.contains(*part);
-        // What is plain stands before the name or behind it; within it, it is part of the name.
-        let from = letters.iter().take_while(|p| is_plain(p)).count();
-        let to = letters.len() - letters[from..].iter().rev().take_while(|p| is_plain(p)).count();
-        let core = &letters[from..to];
+        let core = &letters[self.core(letters)];
         if let Some(found) = found(core, false) {
             return Some(found);
         }
@@ -419,5 +466,30 @@ mod tests {
         assert_eq!(parts("TVStand_206_1"), ["tv", "stand"]);
         assert_eq!(parts("consult-rm 13"), ["consult", "rm"]);
         assert!(parts("12-3").is_empty());
+    }
+
+    #[test]
+    fn a_colour_beside_a_name_is_told_and_one_within_it_is_not() {
+        let table = Synonyms::built_in();
+        let told = |word: &str| -> Vec<String> {
+            table
+                .looks(word)
+                .into_iter()
+                .map(|(property, value)| format!("{property}={value}"))
+                .collect()
+        };
+        assert_eq!(told("OfficeChairBlack"), ["ЦВЕТ=black"]);
+        assert_eq!(told("MetalCabinetYellow"), ["МАТЕРИАЛ=metal", "ЦВЕТ=yellow"]);
+        assert_eq!(told("White sofa 3"), ["ЦВЕТ=white"]);
+        for word in [
+            "White board",
+            "Whiteboard",
+            "Red Room chair",
+            "BlackWhiteChair",
+            "Black",
+            "Blorb black",
+        ] {
+            assert!(told(word).is_empty(), "{word} {:?}", told(word));
+        }
     }
 }

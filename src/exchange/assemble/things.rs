@@ -93,6 +93,9 @@ impl Maker<'_> {
             built.bodies.iter().enumerate().map(|(i, body)| self.part(&name, i, body)).collect();
         let (items, links) = kinds::items(&built, &orthoframes);
         let mut properties = kind.properties.clone();
+        for (property, value) in self.synonyms.looks(&kind.word) {
+            properties.entry(property.to_owned()).or_insert(value);
+        }
         properties.insert(SOURCE.to_owned(), kind.source.clone());
         if built.is_usual {
             properties.insert(Mark::UsualSize.names()[0].to_owned(), "да".to_owned());
