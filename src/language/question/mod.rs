@@ -66,6 +66,7 @@ mod senses;
 mod sentences;
 mod serving;
 mod several;
+mod shuts;
 mod small_words;
 mod speech;
 mod storeys;

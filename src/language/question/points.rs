@@ -4,9 +4,11 @@
 
 use super::Doubt;
 use super::knowledge::Knowledge;
+use super::lexicon::Extension;
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
 use crate::map::Entity;
 use crate::units::PlaceId;
+use crate::words::word_keys;
 
 /// The one point that a noun names.
 fn point_of(noun: &Noun) -> Option<PlaceId> {
@@ -38,13 +40,27 @@ fn each_point(query: &mut Query, mut seen: impl FnMut(PlaceId, &mut Noun)) {
 impl Knowledge<'_> {
     /// Puts the room for the one point in it.
     pub(super) fn rooms_for_points(&self, query: &mut Query) {
-        let places = &self.world.places;
-        each_point(query, |point, noun| {
-            let Some(area) = places.get(&point).map(|place| place.area) else { return };
-            if places.values().filter(|other| other.area == area).count() == 1 {
-                noun.head = Head { named: vec![Entity::Area(area)], ..Head::default() };
+        each_point(query, |point, noun| self.room_for_point(point, noun));
+        // "How big is the pantry room?"
+        query.each_noun(&mut |noun| {
+            let is_room = |key: &String| {
+                let found = self.lexicon().nouns.find(key);
+                found.iter().any(|kind| self.lexicon().kind(*kind).extension == Extension::Rooms)
+            };
+            if let Some(point) = point_of(noun)
+                && word_keys(&noun.text).iter().any(is_room)
+            {
+                self.room_for_point(point, noun);
             }
         });
+    }
+
+    fn room_for_point(&self, point: PlaceId, noun: &mut Noun) {
+        let places = &self.world.places;
+        let Some(area) = places.get(&point).map(|place| place.area) else { return };
+        if places.values().filter(|other| other.area == area).count() == 1 {
+            noun.head = Head { named: vec![Entity::Area(area)], ..Head::default() };
+        }
     }
 
     /// Of a point that is one of several in its room, that it is no room.
