@@ -4,7 +4,7 @@
 
 use super::Doubt;
 use super::knowledge::Knowledge;
-use super::lexicon::Extension;
+use super::lexicon::{Extension, Meaning};
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
 use crate::map::Entity;
 use crate::units::PlaceId;
@@ -45,7 +45,10 @@ impl Knowledge<'_> {
         query.each_noun(&mut |noun| {
             let is_room = |key: &String| {
                 let found = self.lexicon().nouns.find(key);
-                found.iter().any(|kind| self.lexicon().kind(*kind).extension == Extension::Rooms)
+                found.iter().any(|hit| match hit.id {
+                    Meaning::Kind(kind) => self.lexicon().kind(*kind).extension == Extension::Rooms,
+                    Meaning::Entity(_) => false,
+                })
             };
             if let Some(point) = point_of(noun)
                 && word_keys(&noun.text).iter().any(is_room)
