@@ -305,15 +305,16 @@ impl Synonyms {
         let letters: Vec<&str> = parts.iter().map(String::as_str).collect();
         let Some(list) = self.lists.get(&Vocabulary::Object) else { return Vec::new() };
         let core = self.core(&letters);
-        let is_named = match list.lookup(&letters) {
-            Some(_) => self.models.contains(&parts),
-            None => list.lookup(&letters[core.clone()]).is_some(),
-        };
-        let beside = letters[..core.start].iter().chain(&letters[core.end..]);
-        let mut told: Vec<(&'static str, String)> = beside
-            .filter(|_| is_named)
-            .filter_map(|part| Some((*self.looks.get(*part)?, (*part).to_owned())))
-            .collect();
+        // The longest name wins: the board is white in "white board, black" by its name alone.
+        let runs =
+            (0..=core.start).flat_map(|from| (core.end..=letters.len()).map(move |to| from..to));
+        let named = runs.filter(|run| list.lookup(&letters[run.clone()]).is_some());
+        let Some(named) = named.max_by_key(Range::len) else { return Vec::new() };
+        let is_model = self.models.contains(&parts[named.clone()]);
+        let name = if is_model { core } else { named };
+        let beside = letters[..name.start].iter().chain(&letters[name.end..]);
+        let mut told: Vec<(&'static str, String)> =
+            beside.filter_map(|part| Some((*self.looks.get(*part)?, (*part).to_owned()))).collect();
         let all = told.clone();
         told.retain(|(property, _)| all.iter().filter(|(other, _)| other == property).count() == 1);
         told

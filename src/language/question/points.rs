@@ -4,11 +4,10 @@
 
 use super::Doubt;
 use super::knowledge::Knowledge;
-use super::lexicon::{Extension, Meaning};
+use super::lexicon::{Extension, KindId};
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
 use crate::map::Entity;
 use crate::units::PlaceId;
-use crate::words::word_keys;
 
 /// The one point that a noun names.
 fn point_of(noun: &Noun) -> Option<PlaceId> {
@@ -41,19 +40,23 @@ impl Knowledge<'_> {
     /// Puts the room for the one point in it.
     pub(super) fn rooms_for_points(&self, query: &mut Query) {
         each_point(query, |point, noun| self.room_for_point(point, noun));
-        // "How big is the pantry room?"
+        // A point has no size, and no rooms: "How big is the pantry room?"
+        let sized = matches!(query, Query::Size { .. } | Query::Larger { .. });
+        let is_room = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;
         query.each_noun(&mut |noun| {
-            let is_room = |key: &String| {
-                let found = self.lexicon().nouns.find(key);
-                found.iter().any(|hit| match hit.id {
-                    Meaning::Kind(kind) => self.lexicon().kind(*kind).extension == Extension::Rooms,
-                    Meaning::Entity(_) => false,
-                })
-            };
-            if let Some(point) = point_of(noun)
-                && word_keys(&noun.text).iter().any(is_room)
+            if let Some(point) = point_of(noun).filter(|_| sized) {
+                return self.room_for_point(point, noun);
+            }
+            let [place] = &noun.restrictions[..] else { return };
+            let [anchor] = &place.anchors[..] else { return };
+            if let (Rel::Of, Some(point)) = (place.rel, point_of(anchor))
+                && noun.head.kinds.iter().any(is_room)
             {
+                let restrictions = std::mem::take(&mut noun.restrictions);
                 self.room_for_point(point, noun);
+                if point_of(noun).is_none() && noun.head.named.is_empty() {
+                    noun.restrictions = restrictions;
+                }
             }
         });
     }
