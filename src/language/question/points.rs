@@ -54,7 +54,7 @@ impl Knowledge<'_> {
             {
                 let restrictions = std::mem::take(&mut noun.restrictions);
                 self.room_for_point(point, noun);
-                if point_of(noun).is_none() && noun.head.named.is_empty() {
+                if noun.head.named.is_empty() {
                     noun.restrictions = restrictions;
                 }
             }
