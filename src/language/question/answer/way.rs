@@ -233,7 +233,7 @@ impl Knowledge<'_> {
         let way = way.and_then(|way| way.ok()).map(|way| way.length);
         // No way is shorter than the straight line: this one leads from beside a point on which no robot can stand.
         let from_there = |way: &f64| straight.is_none_or(|straight| *way + 1.0 >= straight);
-        let way = way.filter(|way| !goes(start) || !goes(to) || from_there(way));
+        let way = way.filter(|way| rooms || !goes(start) || !goes(to) || from_there(way));
         let straight = straight.filter(|_| !rooms || way.is_none());
         let (a, b) = (self.form(start, Case::Genitive), self.form(to, Case::Genitive));
         let until = russian::preposition(russian::Preposition::Do, &b);
