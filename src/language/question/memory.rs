@@ -440,7 +440,7 @@ impl Exchange {
 
     /// Whether a thing was spoken of only to tell where another one is.
     pub(super) fn is_only_place(&self, thing: Thing) -> bool {
-        self.topics[self.topics.len() - self.only_places..].contains(&thing)
+        self.topics.iter().rev().take(self.only_places).any(|told| *told == thing)
     }
 
     /// What a singular pronoun takes up, in this order.
