@@ -11,7 +11,7 @@ use super::{Answer, Asker, Doubt, Memory, Noun, Query, Thing};
 use crate::map::Entity;
 use crate::sets::set;
 use crate::units::AreaId;
-use crate::words::{Case, Language, word_keys};
+use crate::words::{Case, Language, phrase_at, word_keys};
 
 impl Asker<'_> {
     /// An answer that heeds what was told beside its question.
@@ -106,22 +106,21 @@ impl Asker<'_> {
                     _ => goes && (self.is_room(&noun) || !noun.head.named.is_empty()),
                 }
             }
-            // "Somebody sits on the chair", which would be the nearest.
-            Item::Place { nouns, .. } if !goes => {
-                let found = nouns.iter().filter(|phrase| phrase.person.is_none()).flat_map(|p| {
-                    let noun = Noun { plural: true, ..p.noun.clone() };
-                    knowledge.find(&noun, true).unwrap_or_default()
-                });
-                found.filter(|thing| thing.replica().is_some()).any(|thing| bears(&thing))
-            }
-            // "There is a flood in the kitchen", where the way leads through it.
+            // "Somebody sits on the chair", which would be the nearest; "there is a flood in the kitchen", where the way leads
+            // through it.
             Item::Place { rel, nouns, .. } => {
                 let found = nouns.iter().filter(|phrase| phrase.person.is_none()).flat_map(|p| {
                     let noun = Noun { plural: true, ..p.noun.clone() };
                     knowledge.find(&noun, true).unwrap_or_default()
                 });
                 let through = *rel == Rel::Through;
-                found.filter(leads).any(|thing| through || knowledge.mentions(&answer.text, thing))
+                let on_the_way = |thing: Thing| {
+                    leads(&thing) && (through || knowledge.mentions(&answer.text, thing))
+                };
+                found.into_iter().any(|thing| match goes {
+                    true => on_the_way(thing),
+                    false => thing.replica().is_some() && bears(&thing),
+                })
             }
             _ => false,
         })
@@ -146,8 +145,8 @@ impl Asker<'_> {
         if !items.iter().any(names) {
             return false;
         }
-        let said = format!(" {} ", word_keys(text).join(" "));
-        let narrows = |phrase: &&'static str| said.contains(&format!(" {phrase} "));
+        let keys = word_keys(text);
+        let says = |phrase: &&str| (0..keys.len()).any(|n| phrase_at(&keys, n, phrase).is_some());
         // A place by itself, and "just the red ones".
         let place = |item: &Item| match item {
             Item::Place { rel, .. } => matches!(rel, Rel::In | Rel::On | Rel::At | Rel::From),
@@ -164,7 +163,7 @@ impl Asker<'_> {
         let alone = items.iter().any(place) && items.iter().all(small);
         // "The one in the bedroom: what is it standing on?", «Я про спальню: сколько там картин?»
         let taken_up = !self.pronouns(asked).is_empty() || self.says_there(asked);
-        self.limits(text) || !taken_up && (set!("Narrowing").iter().any(narrows) || alone)
+        self.limits(text) || !taken_up && (set!("Narrowing").iter().any(says) || alone)
     }
 
     fn is_lift(&self, area: AreaId) -> bool {
@@ -198,16 +197,13 @@ impl Asker<'_> {
 
     /// The one thing of which a part tells only that it is out of use.
     fn out_of_use(&self, part: &str) -> Option<Noun> {
-        let said = word_keys(part).join(" ");
-        let phrases = set!("OutOfUse").iter().filter(|phrase| {
-            let at = said.find(**phrase);
-            at.is_some_and(|at| {
-                let ends = said[at + phrase.len()..].chars().next();
-                (at == 0 || said[..at].ends_with(' ')) && ends.is_none_or(|c| c == ' ')
-            })
-        });
-        let phrase = phrases.max_by_key(|phrase| phrase.len())?;
-        let rest = self.plain(&said.replacen(phrase, " ", 1));
+        let keys = word_keys(part);
+        let said = |n: usize| {
+            let taken = set!("OutOfUse").iter().filter_map(|phrase| phrase_at(&keys, n, phrase));
+            Some((n, taken.max()?))
+        };
+        let (at, taken) = (0..keys.len()).filter_map(said).max_by_key(|(_, taken)| *taken)?;
+        let rest = self.plain(&[&keys[..at], &keys[at + taken..]].concat().join(" "));
         let mut only = None;
         for item in Sentence::new(&rest, &self.mind.lexicon).items() {
             match item {

@@ -153,7 +153,6 @@ impl Asker<'_> {
         let alike = places.windows(2).any(|two| rank(&two[0].1) == rank(&two[1].1));
         let (_, mut place) = places.first().cloned().filter(|_| !alike)?;
         for (_, within) in places.into_iter().skip(1) {
-            // A room of its own name is where it is.
             let anchors = vec![within];
             place.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
         }
