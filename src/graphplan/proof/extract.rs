@@ -64,31 +64,46 @@ enum Stop {
     Effort,
 }
 
-/// A set of indices into a level's goals.
-#[derive(Clone)]
-struct GoalSet(Vec<u64>);
+/// A set of indices into a level's goals: of so few as there mostly are, nothing is kept elsewhere.
+#[derive(Clone, Default)]
+struct GoalSet {
+    first: u64,
+    rest: Vec<u64>,
+}
 
 impl GoalSet {
-    fn none(goals: usize) -> Self {
-        Self(vec![0; bits::words(goals)])
-    }
-
-    fn one(goals: usize, index: usize) -> Self {
-        let mut set = Self::none(goals);
+    fn one(index: usize) -> Self {
+        let mut set = Self::default();
         set.insert(index);
         set
     }
 
     fn insert(&mut self, index: usize) {
-        bits::put(&mut self.0, index);
+        match index.checked_sub(64) {
+            None => self.first |= 1 << index,
+            Some(index) => {
+                let words = bits::words(index + 1).max(self.rest.len());
+                self.rest.resize(words, 0);
+                bits::put(&mut self.rest, index);
+            }
+        }
     }
 
     fn contains(&self, index: usize) -> bool {
-        bits::has(&self.0, index)
+        match index.checked_sub(64) {
+            None => self.first >> index & 1 == 1,
+            Some(index) => index / 64 < self.rest.len() && bits::has(&self.rest, index),
+        }
     }
 
     fn union(&mut self, other: &Self) {
-        bits::unite(&mut self.0, &other.0);
+        self.first |= other.first;
+        self.rest.resize(self.rest.len().max(other.rest.len()), 0);
+        bits::unite(&mut self.rest, &other.rest);
+    }
+
+    fn members(&self) -> impl Iterator<Item = usize> {
+        bits::of_word(self.first).chain(bits::members(&self.rest).map(|index| index + 64))
     }
 }
 
@@ -220,7 +235,7 @@ impl<'a> Search<'a> {
             return self.assign(choice, index + 1, steps);
         }
         let step = choice.level - 1;
-        let mut reason = GoalSet::one(choice.goals.len(), index);
+        let mut reason = GoalSet::one(index);
         for action in choice.ways(goal) {
             self.tick(graph).map_err(Failure::Stop)?;
             let others = choice.chosen.iter().map(|&(other, _)| other);
@@ -261,7 +276,7 @@ impl<'a> Search<'a> {
             }
             return Ok(());
         };
-        let mut reason = GoalSet::none(choice.goals.len());
+        let mut reason = GoalSet::default();
         for need in failed {
             // The first goal that brought the need in: the further back the jump, the better.
             let &(_, owner) = choice
@@ -356,7 +371,7 @@ impl<'g> Level<'g> {
     }
 
     fn facts(&self, set: &GoalSet) -> Vec<FactId> {
-        let mut facts: Vec<FactId> = bits::members(&set.0).map(|index| self.goals[index]).collect();
+        let mut facts: Vec<FactId> = set.members().map(|index| self.goals[index]).collect();
         facts.sort_unstable();
         facts
     }

@@ -7,7 +7,8 @@
 //! of tokens, one for each fact about no such object and one for each object with all that the set says of it.
 //! Tokens of two objects of a class are the same when the set says the same of both.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
+use std::ops::Range;
 
 use super::symmetry::Symmetry;
 use crate::strips::FactId;
@@ -17,11 +18,18 @@ type Token = u32;
 
 #[derive(Debug, Default)]
 struct Node {
-    children: BTreeMap<Token, u32>,
+    /// By their tokens, in order.
+    children: Vec<(Token, u32)>,
     /// The level of the set that ends here, and the set as it was first met.
     set: Option<(u32, Box<[FactId]>)>,
     /// The highest level at or below this node.
     highest: u32,
+}
+
+impl Node {
+    fn child(&self, token: Token) -> Result<usize, usize> {
+        self.children.binary_search_by_key(&token, |&(known, _)| known)
+    }
 }
 
 /// The trie.
@@ -35,8 +43,12 @@ pub(crate) struct NoGoods {
     bytes: usize,
 }
 
-/// A token with the facts of the set that it stands for.
-type Tokens = Vec<(Token, Vec<FactId>)>;
+/// A set as tokens in order, each with the facts that it stands for.
+#[derive(Debug, Default)]
+struct Tokens {
+    tokens: Vec<(Token, Range<usize>)>,
+    facts: Vec<FactId>,
+}
 
 impl NoGoods {
     pub(crate) fn new(symmetry: Symmetry, fact_count: usize) -> Self {
@@ -54,45 +66,60 @@ impl NoGoods {
     }
 
     fn tokens(&mut self, facts: &[FactId]) -> Tokens {
-        let mut tokens = Tokens::new();
-        let mut by_object: BTreeMap<u32, Vec<FactId>> = BTreeMap::new();
-        for &fact in facts {
-            match self.symmetry.role(fact) {
-                Some(role) => by_object.entry(role.object).or_default().push(fact),
-                None => tokens.push((fact.0, vec![fact])),
-            }
+        let object = |fact: &FactId| self.symmetry.role(*fact).map(|role| role.object);
+        let mut facts = facts.to_vec();
+        if facts.iter().any(|fact| object(fact).is_some()) {
+            facts.sort_by_key(object);
         }
-        for facts in by_object.into_values() {
-            let mut images: Vec<FactId> = facts
-                .iter()
-                .filter_map(|&fact| self.symmetry.role(fact))
-                .map(|role| role.image)
-                .collect();
+        let mut tokens = Vec::with_capacity(facts.len());
+        let mut images: Vec<FactId> = Vec::new();
+        let mut from = 0;
+        while from < facts.len() {
+            let about = object(&facts[from]);
+            let same = facts[from..].iter().take_while(|fact| object(fact) == about).count();
+            let to = if about.is_some() { from + same } else { from + 1 };
+            images.clear();
+            images.extend(
+                facts[from..to]
+                    .iter()
+                    .map(|&fact| self.symmetry.role(fact).map_or(fact, |role| role.image)),
+            );
             images.sort_unstable();
             let token = match images.as_slice() {
                 [only] => only.0,
-                _ => *self.profiles.entry(images).or_insert_with(|| {
-                    self.next_profile += 1;
-                    self.next_profile
-                }),
+                several => match self.profiles.get(several) {
+                    Some(&known) => known,
+                    None => {
+                        self.next_profile += 1;
+                        self.profiles.insert(images.clone(), self.next_profile);
+                        self.next_profile
+                    }
+                },
             };
-            tokens.push((token, facts));
+            tokens.push((token, from..to));
+            from = to;
         }
-        tokens.sort_unstable();
-        tokens
+        tokens.sort_unstable_by(|(a, of_a), (b, of_b)| {
+            a.cmp(b).then_with(|| facts[of_a.clone()].cmp(&facts[of_b.clone()]))
+        });
+        Tokens { tokens, facts }
     }
 
     /// Records that `facts` cannot all hold at `level`.
     pub(crate) fn insert(&mut self, facts: &[FactId], level: u32) {
         let mut at = 0;
-        for (token, _) in self.tokens(facts) {
-            self.nodes[at].highest = self.nodes[at].highest.max(level);
+        for (token, _) in self.tokens(facts).tokens {
             let next = self.nodes.len() as u32;
-            let child = *self.nodes[at].children.entry(token).or_insert(next);
-            if child == next {
-                self.nodes.push(Node::default());
-            }
-            at = child as usize;
+            let node = &mut self.nodes[at];
+            node.highest = node.highest.max(level);
+            at = match node.child(token) {
+                Ok(place) => node.children[place].1 as usize,
+                Err(place) => {
+                    node.children.insert(place, (token, next));
+                    self.nodes.push(Node::default());
+                    next as usize
+                }
+            };
         }
         let node = &mut self.nodes[at];
         node.highest = node.highest.max(level);
@@ -110,21 +137,22 @@ impl NoGoods {
         if self.nodes[0].highest < level {
             return None;
         }
-        let tokens = self.tokens(facts);
+        let Tokens { tokens, facts } = self.tokens(facts);
         let mut found = Vec::new();
         self.find(0, &tokens, level, &mut found).then(|| {
-            let mut facts: Vec<FactId> = found.into_iter().flatten().copied().collect();
+            let mut facts: Vec<FactId> =
+                found.into_iter().flat_map(|of: Range<usize>| &facts[of]).copied().collect();
             facts.sort_unstable();
             facts
         })
     }
 
-    fn find<'t>(
+    fn find(
         &self,
         at: usize,
-        tokens: &'t [(Token, Vec<FactId>)],
+        tokens: &[(Token, Range<usize>)],
         level: u32,
-        found: &mut Vec<&'t [FactId]>,
+        found: &mut Vec<Range<usize>>,
     ) -> bool {
         let node = &self.nodes[at];
         if node.highest < level {
@@ -139,8 +167,9 @@ impl NoGoods {
             if last.replace(token) == Some(token) {
                 continue;
             }
-            if let Some(&child) = node.children.get(token) {
-                found.push(facts);
+            if let Ok(child) = node.child(*token) {
+                found.push(facts.clone());
+                let (_, child) = node.children[child];
                 if self.find(child as usize, &tokens[place + 1..], level, found) {
                     return true;
                 }
