@@ -11,6 +11,7 @@ mod beside_the_question;
 mod between_rooms;
 mod bounded;
 mod broken_scenarios;
+mod called;
 mod called_after;
 mod chatter;
 mod cli;

@@ -249,6 +249,7 @@ impl<'x> Reader<'x> {
                 source: (*id).to_owned(),
                 name: name.to_owned(),
                 kind,
+                called: String::new(),
                 outline,
                 holes: Vec::new(),
                 height: height(tags),

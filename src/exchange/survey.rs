@@ -113,6 +113,9 @@ pub struct Room {
     pub name: String,
     /// The file's word for what it is, looked up in the synonym table: `Bedroom`, `corridor`.
     pub kind: String,
+    /// What it is called by what belongs to it, in English, where the file gives it no name: `Left consult room 3`, of
+    /// whose doors each is called so.
+    pub called: String,
     /// On its level, without the closing point; either sense of rotation, any dirt.
     pub outline: Vec<Point>,
     /// Parts of the outline that are no floor: columns, courtyards.

@@ -403,6 +403,10 @@ impl Maker<'_> {
         let area_type = meaning.as_ref().map(|m| self.types.of(TypeKind::Area, m));
         let says_only_type = name.is_empty() || by_name.is_some_and(|f| f.is_whole);
         let given = match (&meaning, says_only_type) {
+            (meaning, true) if !room.called.is_empty() => {
+                let russian = meaning.as_ref().map_or("Помещение", |m| &m.name);
+                self.names.numbered_with(russian, &room.called)
+            }
             (Some(m), true) => {
                 let own = by_name.filter(|f| f.is_whole).map_or(m, |f| f.meaning);
                 let (ru, en) = (own.name.clone(), capitalized(&own.name_en));

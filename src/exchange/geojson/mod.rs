@@ -301,6 +301,7 @@ impl Reader {
                     source,
                     name: name.clone(),
                     kind: word.to_owned(),
+                    called: String::new(),
                     outline: outline.clone(),
                     holes: holes.clone(),
                     height,

@@ -120,6 +120,7 @@ impl Reader<'_> {
             source,
             name,
             kind,
+            called: String::new(),
             outline,
             holes,
             height: height.filter(|h| h.get() >= 50.0),

@@ -223,7 +223,9 @@ impl Reader {
             .iter()
             .map(|d| param(d.record, "name").and_then(Value::as_str).unwrap_or_default().to_owned())
             .collect();
-        rooms::name(&mut made.rooms, &faces, &plan, &made.spots, &door_names);
+        let named =
+            rooms::Named { faces: &faces, plan: &plan, spots: &made.spots, doors: &door_names };
+        named.tell(&mut made.rooms);
         for door in &doors {
             if let Some(opening) = self.door(door) {
                 made.openings.push(opening);
@@ -529,6 +531,7 @@ impl Reader {
                 source: format!("{name}@{level_name}"),
                 name: String::new(),
                 kind: "lift".to_owned(),
+                called: String::new(),
                 outline: outline.clone(),
                 holes: Vec::new(),
                 height: Some(Cm::of(WALL)),

@@ -56,6 +56,7 @@ pub(super) fn rooms(
         source,
         name: String::new(),
         kind: String::new(),
+        called: String::new(),
         outline: region.outer.clone(),
         holes: region.holes.clone(),
         height: Some(Cm::of(WALL)),
@@ -152,35 +153,96 @@ fn is_floor(region: &Region) -> bool {
     region.area() >= LEAST_FLOOR && 2.0 * region.area() / around >= LEAST_WIDTH
 }
 
-/// Tells what a room is by the one named vertex in it, else by the name of a door for which it is the smaller room.
-pub(super) fn name(
-    rooms: &mut [Room],
-    faces: &[Option<usize>],
-    plan: &Plan,
-    spots: &[Spot],
-    doors: &[String],
-) {
-    let area = |room: &Room| doubled_area(&room.outline).abs();
-    for room in rooms.iter_mut() {
-        let within = |spot: &&Spot| {
-            contains(&room.outline, spot.at) && !room.holes.iter().any(|h| contains(h, spot.at))
-        };
-        let named: Vec<&Spot> =
-            spots.iter().filter(|spot| !spot.name.is_empty()).filter(within).collect();
-        if let [only] = named[..] {
-            room.kind.clone_from(&only.name);
+/// What doors and vertices say of the rooms that they belong to.
+pub(super) struct Named<'n> {
+    pub(super) faces: &'n [Option<usize>],
+    pub(super) plan: &'n Plan,
+    pub(super) spots: &'n [Spot],
+    /// As many as doors in the plan, in its order.
+    pub(super) doors: &'n [String],
+}
+
+impl Named<'_> {
+    /// Tells what a room is by the one named vertex in it, else by the name of a door for which it is the smaller room;
+    /// and what it is called, where that is told twice.
+    pub(super) fn tell(&self, rooms: &mut [Room]) {
+        let area = |room: &Room| doubled_area(&room.outline).abs();
+        let spots: Vec<Vec<&str>> = rooms.iter().map(|room| self.spots_in(room)).collect();
+        for (room, spots) in rooms.iter_mut().zip(&spots) {
+            if let [only] = spots[..] {
+                only.clone_into(&mut room.kind);
+            }
+        }
+        let mut of_doors: Vec<Vec<&str>> = vec![Vec::new(); rooms.len()];
+        let mut is_smaller = vec![false; rooms.len()];
+        for (i, door) in self.doors.iter().enumerate() {
+            let beside = |r: &usize| {
+                self.faces[*r].is_some_and(|f| self.plan.faces[f].tags.contains(&(i + 1)))
+            };
+            let mut beside: Vec<usize> = (0..rooms.len()).filter(beside).collect();
+            beside.iter().for_each(|&room| of_doors[room].push(door));
+            beside.order_by(|&a, &b| area(&rooms[a]).total_cmp(&area(&rooms[b])));
+            // A door with one room only leads outside: its name may mean either.
+            if let [smaller, _] = beside[..] {
+                is_smaller[smaller] = true;
+                if rooms[smaller].kind.is_empty() {
+                    rooms[smaller].kind.clone_from(door);
+                }
+            }
+        }
+        let called: Vec<Option<String>> =
+            (0..rooms.len()).map(|i| common_name(&of_doors[i], &spots[i], is_smaller[i])).collect();
+        for (i, room) in rooms.iter_mut().enumerate() {
+            let own = called[i]
+                .as_ref()
+                .filter(|own| called.iter().flatten().filter(|n| n == own).count() == 1);
+            room.called = own.cloned().unwrap_or_default();
         }
     }
-    for (i, door) in doors.iter().enumerate() {
-        let beside =
-            |room: usize| faces[room].is_some_and(|f| plan.faces[f].tags.contains(&(i + 1)));
-        let mut beside: Vec<usize> = (0..rooms.len()).filter(|&r| beside(r)).collect();
-        beside.order_by(|&a, &b| area(&rooms[a]).total_cmp(&area(&rooms[b])));
-        // A door with one room only leads outside: its name may mean either.
-        if let [smaller, _] = beside[..]
-            && rooms[smaller].kind.is_empty()
-        {
-            rooms[smaller].kind.clone_from(door);
-        }
+
+    /// The names of the vertices in a room.
+    fn spots_in(&self, room: &Room) -> Vec<&str> {
+        let is_within =
+            |at| contains(&room.outline, at) && !room.holes.iter().any(|h| contains(h, at));
+        let named = self.spots.iter().filter(|spot| !spot.name.is_empty() && is_within(spot.at));
+        named.map(|spot| spot.name.as_str()).collect()
     }
+}
+
+/// What all doors of a room are called but for the side on which they are: `Left consult room 3` of
+/// `left_consult_rm_3_inner` and `left_consult_rm_3_outer`. A single door names its room where a vertex within is called so
+/// too, or where the name says that it is a room's, and the room beyond is larger.
+fn common_name(doors: &[&str], spots: &[&str], is_smaller: bool) -> Option<String> {
+    let (first, others) = doors.split_first()?;
+    let stem = stem(first);
+    let is_told = match others {
+        [] => spots.contains(first) || is_smaller && stem.iter().any(|word| is_room(word)),
+        others => others.iter().all(|other| self::stem(other) == stem),
+    };
+    (is_told && !stem.is_empty()).then(|| room_words(&stem))
+}
+
+/// The words of a door's name, without the side of the room on which it is.
+fn stem(door: &str) -> Vec<&str> {
+    let mut words: Vec<&str> =
+        door.split(['_', ' ', '-']).filter(|word| !word.is_empty()).collect();
+    if words.last().is_some_and(|last| SIDES.contains(&last.to_lowercase().as_str())) {
+        words.pop();
+    }
+    words
+}
+
+/// On which side of its room a door is.
+const SIDES: [&str; 10] =
+    ["inner", "outer", "inside", "outside", "front", "back", "entry", "exit", "in", "out"];
+
+fn is_room(word: &str) -> bool {
+    matches!(word.to_lowercase().as_str(), "rm" | "room")
+}
+
+/// `L1`, `consult`, `rm`, `3` as a room's name: "L1 consult room 3"; what does not say so is said to be a room.
+fn room_words(words: &[&str]) -> String {
+    let says_so = words.iter().any(|word| is_room(word));
+    let words = words.iter().map(|word| if is_room(word) { "room" } else { word });
+    words.chain((!says_so).then_some("room")).collect::<Vec<_>>().join(" ")
 }

@@ -219,6 +219,7 @@ fn rooms(grid: &Grid, sheet: &Sheet, label: &[u32], sizes: &[usize], level: &mut
             source: format!("room-{}", no + 1),
             name: String::new(),
             kind: if is_corridor(&outer) { "corridor" } else { "room" }.to_owned(),
+            called: String::new(),
             outline: outer,
             holes,
             height: None,

@@ -306,6 +306,7 @@ impl Reader<'_> {
                 source: id.to_owned(),
                 name: String::new(),
                 kind: text(record, "roomType").unwrap_or_default().to_owned(),
+                called: String::new(),
                 outline,
                 holes: Vec::new(),
                 height: heights.get(id).filter(|h| **h > 0.0).map(|&h| Cm::of(h)),

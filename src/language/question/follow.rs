@@ -12,7 +12,8 @@ use super::{
     Asker, Best, Claim, Extreme, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble,
     several, vocabulary,
 };
-use crate::map::Entity;
+use crate::map::{Entity, World};
+use crate::names::english_name;
 use crate::sets::{Set, set};
 use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
@@ -424,8 +425,41 @@ impl Asker<'_> {
         let waiting = memory.pending.as_ref().map(|pending| &pending.query);
         if let Some(last) = waiting.or(memory.query.as_ref()) {
             repeat_with(sentence, last, &mut noun);
+            let sisters = self.sisters(knowledge.world, &noun, last);
+            noun.head.named.extend(sisters);
         }
         Some(noun)
+    }
+
+    /// "Room 4" after "left consult room 3": the next of its row as well as the room that is called so.
+    fn sisters(&self, world: &World, noun: &Noun, last: &Query) -> Vec<Entity> {
+        let keys = word_keys(without_article(&noun.text));
+        let Some((number, words)) = keys.split_last() else { return Vec::new() };
+        let is_number = |key: &str| key.chars().all(|c| c.is_ascii_digit());
+        if words.is_empty() || !is_number(number) {
+            return Vec::new();
+        }
+        let mut sisters = Vec::new();
+        query_nouns(last, &mut |old| {
+            let told = old.head.things.iter().flatten().filter_map(|thing| match thing {
+                Thing::Entity(entity) => Some(english_name(world, *entity)),
+                _ => None,
+            });
+            for old in std::iter::once(old.text.as_str()).chain(told) {
+                let old = word_keys(without_article(old));
+                let Some((of_old, row)) = old.split_last() else { continue };
+                if row.len() <= words.len() || !row.ends_with(words) || !is_number(of_old) {
+                    continue;
+                }
+                let name = format!("{} {number}", row.join(" "));
+                let sentence = Sentence::new(&name, &self.mind.lexicon);
+                let none = |_, _| Vec::new();
+                let sister = assemble::fragment(&sentence, &self.mind.lexicon, &none);
+                sisters.extend(sister.into_iter().flat_map(|sister| sister.head.named));
+            }
+        });
+        sisters.retain(|sister| !noun.head.named.contains(sister));
+        sisters
     }
 
     /// «Гостиная и кухня смежные? А кухня и спальня?»: the same of two other rooms.

@@ -298,11 +298,14 @@ impl Knowledge<'_> {
                 None => (kind.phrase.clone(), kind.english.clone()),
             },
             None => {
-                let id = self.lexicon().kind_of(&Extension::Things);
-                let phrase = id.map(|id| self.lexicon().kind(id).phrase.clone());
-                let phrase =
-                    phrase.unwrap_or_else(|| NounPhrase::parse("вещь", &WordHints::default()));
-                (phrase, "thing".to_owned())
+                let named = &noun.head.named;
+                let are_rooms =
+                    !named.is_empty() && named.iter().all(|e| matches!(e, Entity::Area(_)));
+                let of = if are_rooms { Extension::Rooms } else { Extension::Things };
+                let kind = self.lexicon().kind_of(&of).map(|id| self.lexicon().kind(id));
+                let things =
+                    || (NounPhrase::parse("вещь", &WordHints::default()), "thing".to_owned());
+                kind.map_or_else(things, |kind| (kind.phrase.clone(), kind.english.clone()))
             }
         };
         let (mut russian_name, mut english_name) = (lower_first(base.name()), english_base);

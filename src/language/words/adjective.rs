@@ -69,6 +69,8 @@ impl Adjective {
                 Stem::Velar
             }
             'ж' | 'ш' | 'ч' | 'щ' => Stem::Sibilant,
+            // «станций», «консультаций»: nouns
+            'ц' if ending == "ий" => return None,
             'ц' => Stem::Hard,
             _ if matches!(ending, "ий" | "яя" | "ее" | "ие") => Stem::Soft,
             _ => Stem::Hard,
@@ -239,7 +241,8 @@ mod tests {
 
     #[test]
     fn nouns_are_not_taken_for_adjectives() {
-        for word in ["помещение", "стол", "ой", "планетарий", "й", ""] {
+        for word in ["помещение", "стол", "станций", "ой", "планетарий", "й", ""]
+        {
             assert_eq!(Adjective::read(word), None, "{word}");
         }
     }

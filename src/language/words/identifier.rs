@@ -1,5 +1,5 @@
 //! What people say for a name that a program gave: "the left nurse center", «левый сестринский пост» for
-//! `L1_left_nurse_center`.
+//! `L1_left_nurse_center`, or that was made of such names and begins with its storey as they do: `L1 left ward 3`.
 //!
 //! Invariant: what is said ends as the name does, with two of its words at least; a number may be left unsaid, and the
 //! storey that stands first.
@@ -12,11 +12,16 @@ use super::things::things;
 /// The forms of such a name that are said, English and Russian; none for any other name.
 pub(crate) fn spoken(name: &str) -> Vec<String> {
     let lower = name.to_lowercase();
-    let parts: Vec<&str> = lower.split('_').filter(|part| !part.is_empty()).collect();
+    let is_storey = |part: &str| part.len() < 4 && part.ends_with(|c: char| c.is_ascii_digit());
+    let mut parts: Vec<&str> = lower.split('_').filter(|part| !part.is_empty()).collect();
+    if let [words] = parts[..] {
+        parts = words.split(' ').collect();
+        parts.truncate(if is_storey(parts[0]) { parts.len() } else { 0 });
+    }
     if parts.len() < 2 || !name.is_ascii() {
         return Vec::new();
     }
-    let storey = parts[0].len() < 4 && parts[0].ends_with(|c: char| c.is_ascii_digit());
+    let storey = is_storey(parts[0]);
     let numbers = parts.iter().rev().take_while(|part| is_number(part)).count();
     let (named, number) = parts.split_at(parts.len() - numbers);
     let mut said = Vec::new();
@@ -91,6 +96,11 @@ mod tests {
         );
         check("L2_north_counter", &["north counter", "северная стойка"], &["counter", "стойка"]);
         check("L1_sub_waiting_area_3", &["waiting area", "waiting area 3", "зона ожидания 3"], &[]);
+        check(
+            "L1 left consult room 3",
+            &["left consult room 3", "consult room 3", "левый кабинет консультаций 3"],
+            &["room 3", "l1 left consult room 3"],
+        );
         // Where a robot is charged is not where it is.
         check(
             "tinyRobot_1_charger",
@@ -102,7 +112,7 @@ mod tests {
             &["charger of tinyrobot2", "зарядка tinyrobot2"],
             &["tinyrobot2"],
         );
-        for name in ["hardware_2", "Office chair", "Room-B", "", "_", "1_2"] {
+        for name in ["hardware_2", "Office chair", "Table 1", "Room-B", "", "_", "1_2"] {
             assert!(spoken(name).is_empty(), "{name}: {:?}", spoken(name));
         }
     }

@@ -578,7 +578,9 @@ impl<'t> Sentence<'t> {
             && self.text[self.words[start].start..self.words[*to as usize - 1].end].is_ascii()
             && next.named.iter().all(|entity| matches!(entity, Entity::Area(_)))
             && !next.named.is_empty();
-        if names && (russian || found.is_storey) || apposed {
+        // "The door L1_wc_2": a name that is no word for anything else tells which, in either language.
+        let told = russian || found.is_storey || next.kinds.is_empty() && is_singular(found);
+        if names && told || apposed {
             return Ok((after, Some(next), None));
         }
         match self.language {
