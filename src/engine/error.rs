@@ -14,7 +14,7 @@ use crate::meaning::LangFaults;
 use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
-use crate::strips::{EnglishFaults, RuleFaults};
+use crate::strips::RuleFaults;
 use crate::units::{Bilingual, English, Lengths, capitalized, is_input};
 use crate::vectors::picture::PictureError;
 use crate::vectors::read::LogError;
@@ -532,7 +532,7 @@ impl Error {
                 ImportError::Map(faults) => Box::new(faults.in_english()),
                 error => Box::new(English(error)),
             },
-            Self::Rules(faults) => Box::new(EnglishFaults::from(faults)),
+            Self::Rules(faults) => Box::new(faults.in_english()),
             Self::Relations(error) => error.in_english(),
             Self::Language(faults) => Box::new(faults.in_english()),
             Self::Store(error) => Box::new(English(error)),

@@ -13,6 +13,10 @@ pub trait InEnglish: Diagnostic {
     fn english_labels(&self) -> [&'static str; 2] {
         ["here", "and here"]
     }
+    /// What its label of this number says.
+    fn english_label(&self, nth: usize) -> String {
+        self.english_labels()[nth.min(1)].to_owned()
+    }
 }
 
 /// A fault as English tells it.
@@ -41,12 +45,10 @@ impl<F: InEnglish> Diagnostic for English<'_, F> {
         self.0.source_code()
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let [first, further] = self.0.english_labels();
-        let told = std::iter::once(first).chain(std::iter::repeat(further));
-        let label = |(label, told): (LabeledSpan, &str)| {
-            LabeledSpan::new_with_span(Some(told.to_owned()), *label.inner())
+        let label = |(nth, label): (usize, LabeledSpan)| {
+            LabeledSpan::new_with_span(Some(self.0.english_label(nth)), *label.inner())
         };
-        Some(Box::new(self.0.labels()?.zip(told).map(label)))
+        Some(Box::new(self.0.labels()?.enumerate().map(label)))
     }
 }
 
