@@ -124,12 +124,12 @@ impl RuleFaults {
 
     /// The faults as English tells them.
     #[must_use]
-    pub fn in_english(&self) -> EnglishGroup<'_, RuleFault> {
+    pub fn in_english(&self) -> EnglishGroup<'_> {
         EnglishGroup {
             all: self,
             title: self.told(Language::English),
             help: None,
-            faults: self.0.iter().map(English).collect(),
+            faults: English::each(&self.0),
         }
     }
 }

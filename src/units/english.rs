@@ -52,25 +52,33 @@ impl<F: InEnglish> Diagnostic for English<'_, F> {
     }
 }
 
+impl<'f, F: InEnglish> English<'f, F> {
+    /// Each of several, for a [`EnglishGroup`].
+    #[must_use]
+    pub fn each(faults: &'f [F]) -> Vec<Box<dyn Diagnostic + 'f>> {
+        faults.iter().map(|fault| Box::new(Self(fault)) as _).collect()
+    }
+}
+
 /// Faults that stand together, as English tells them.
 #[derive(Debug)]
-pub struct EnglishGroup<'f, F> {
+pub struct EnglishGroup<'f> {
     pub all: &'f dyn Diagnostic,
     /// What is told of all of them in a line.
     pub title: String,
     pub help: Option<String>,
-    pub faults: Vec<English<'f, F>>,
+    pub faults: Vec<Box<dyn Diagnostic + 'f>>,
 }
 
-impl<F: InEnglish> fmt::Display for EnglishGroup<'_, F> {
+impl fmt::Display for EnglishGroup<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.title)
     }
 }
 
-impl<F: InEnglish> std::error::Error for EnglishGroup<'_, F> {}
+impl std::error::Error for EnglishGroup<'_> {}
 
-impl<F: InEnglish> Diagnostic for EnglishGroup<'_, F> {
+impl Diagnostic for EnglishGroup<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.all.code()
     }
@@ -84,6 +92,6 @@ impl<F: InEnglish> Diagnostic for EnglishGroup<'_, F> {
         self.all.source_code()
     }
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        Some(Box::new(self.faults.iter().map(|fault| fault as _)))
+        Some(Box::new(self.faults.iter().map(|fault| &**fault as _)))
     }
 }

@@ -16,13 +16,17 @@ use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue};
 use miette::{LabeledSpan, Severity, SourceSpan};
 
-use super::{Bilingual, Carried, Cm, InEnglish, Language, carried};
+use super::{Bilingual, Carried, Cm, InEnglish, Language, Lengths, Pose, carried};
 
 pub(super) mod check;
 
 /// What all crates say alike.
 static COMMON: [Carried; 2] =
     [carried!("../../rules/messages/ru/units.ftl"), carried!("../../rules/messages/en/units.ftl")];
+
+/// What a message can ask: whether an argument that may be left out was given, a length and an area in the unit of the run, that
+/// unit, a number without its fraction.
+const FUNCTIONS: [&str; 5] = ["GIVEN", "LENGTH", "AREA", "UNIT", "ROUND"];
 
 /// The messages of a crate, in both languages.
 pub struct Messages {
@@ -47,12 +51,28 @@ impl Messages {
             bundle.set_use_isolating(false);
             bundle.add_resource_overriding(Arc::clone(&ALIKE[i]));
             bundle.add_resource_overriding(Arc::new(read(self.texts[i].as_ref())));
-            // Whether an argument that may be left out was given.
             let given = bundle.add_function("GIVEN", |arguments, _| {
                 let absent = matches!(arguments, [FluentValue::None | FluentValue::Error] | []);
                 FluentValue::from(if absent { "no" } else { "yes" })
             });
-            given.expect("no other function has this name");
+            let length = bundle.add_function("LENGTH", move |arguments, named| {
+                let places = named.get("places").and_then(number).unwrap_or_default();
+                let told = |cm| Lengths::said().told(cm, places as usize, language);
+                arguments.first().and_then(number).map(told).unwrap_or_default().into()
+            });
+            let area = bundle.add_function("AREA", move |arguments, _| {
+                let told = |square_cm| Lengths::said().told_area(square_cm, 0, language);
+                arguments.first().and_then(number).map(told).unwrap_or_default().into()
+            });
+            let unit = bundle
+                .add_function("UNIT", move |_, _| Lengths::said().word(language).to_owned().into());
+            let round = bundle.add_function("ROUND", |arguments, _| {
+                let told = |value| format!("{value:.0}");
+                arguments.first().and_then(number).map(told).unwrap_or_default().into()
+            });
+            for added in [given, length, area, unit, round] {
+                added.expect("no other function has this name");
+            }
             bundle
         })
     }
@@ -100,21 +120,31 @@ impl fmt::Debug for Messages {
     }
 }
 
+fn number(value: &Argument<'_>) -> Option<f64> {
+    match value {
+        Argument::Number(number) => Some(number.value),
+        _ => None,
+    }
+}
+
 /// A message file as far as it can be read.
 fn read(text: &str) -> FluentResource {
     FluentResource::try_new(text.to_owned()).unwrap_or_else(|(read, _)| read)
 }
 
+/// An argument of a message, as it stands in one language.
+pub type Argument<'a> = FluentValue<'a>;
+
 /// What a message can have as an argument.
 pub trait Value {
     /// As a message of a language takes it.
-    fn told(&self, language: Language) -> Option<FluentValue<'_>>;
+    fn told(&self, language: Language) -> Option<Argument<'_>>;
 }
 
 macro_rules! values {
     ($($kind:ty: |$it:pat_param, $language:pat_param| $told:expr;)*) => {
         $(impl Value for $kind {
-            fn told(&self, $language: Language) -> Option<FluentValue<'_>> {
+            fn told(&self, $language: Language) -> Option<Argument<'_>> {
                 let $it = self;
                 Some(FluentValue::from($told))
             }
@@ -137,24 +167,37 @@ values! {
     Cm: |it, language| it.say(language);
     Bilingual: |it, language| it.say(language);
     (&'static str, &'static str): |it, language| language.pick(it.0, it.1);
+    Pose: |it, _| {
+        let [x, y] = [it.at.x, it.at.y].map(|at| Lengths::said().number(at, 0));
+        format!("({x}; {y})")
+    };
     std::path::PathBuf: |it, _| it.display().to_string();
     std::io::Error: |it, _| it.to_string();
 }
 
 impl<V: Value + ?Sized> Value for &V {
-    fn told(&self, language: Language) -> Option<FluentValue<'_>> {
+    fn told(&self, language: Language) -> Option<Argument<'_>> {
         (**self).told(language)
     }
 }
 
 impl<V: Value + ?Sized> Value for Box<V> {
-    fn told(&self, language: Language) -> Option<FluentValue<'_>> {
+    fn told(&self, language: Language) -> Option<Argument<'_>> {
         (**self).told(language)
     }
 }
 
+/// Names, within the quotation marks of the message.
+impl Value for Vec<Bilingual> {
+    fn told(&self, language: Language) -> Option<Argument<'_>> {
+        let between = super::MESSAGES.tell(language, "between-names", &[]);
+        let names: Vec<_> = self.iter().map(|name| name.say(language)).collect();
+        Some(names.join(&between).into())
+    }
+}
+
 impl<V: Value> Value for Option<V> {
-    fn told(&self, language: Language) -> Option<FluentValue<'_>> {
+    fn told(&self, language: Language) -> Option<Argument<'_>> {
         self.as_ref().map_or(Some(FluentValue::None), |it| it.told(language))
     }
 }
@@ -162,20 +205,15 @@ impl<V: Value> Value for Option<V> {
 /// One of the faults of an enum.
 #[derive(Debug)]
 pub struct Kind {
-    /// Stable; its message is named after it.
+    /// Stable.
     pub code: &'static str,
+    /// The name of its message.
+    pub message: &'static str,
     pub warning: bool,
     /// Its arguments.
     pub fields: &'static [&'static str],
     /// The stretches of a text that it points at.
     pub places: &'static [&'static str],
-}
-
-impl Kind {
-    /// The name of its message.
-    fn message(&self) -> String {
-        self.code.replace("::", "-").replace('_', "-")
-    }
 }
 
 /// A fault whose words stand in message files; `#[derive(Fault)]` makes one of an enum, with all that miette asks of it.
@@ -208,7 +246,7 @@ pub trait Fault: Listed {
         let values = self.values();
         let told = kind.fields.iter().zip(&values);
         let told = told.filter_map(|(name, value)| Some((*name, value.told(language)?)));
-        self.messages().find(language, &kind.message(), attribute, &told.collect())
+        self.messages().find(language, kind.message, attribute, &told.collect())
     }
 
     /// What is wrong.
@@ -219,7 +257,7 @@ pub trait Fault: Listed {
                 Language::English => inner.english(),
             },
             None => self.found(language, None).unwrap_or_else(|| {
-                self.kind().map(|kind| Self::KINDS[kind].message()).unwrap_or_default()
+                self.kind().map(|kind| Self::KINDS[kind].message.to_owned()).unwrap_or_default()
             }),
         }
     }

@@ -14,8 +14,10 @@
 //! }
 //! ```
 //!
+//! Where another fault has the same code and other words, `message = "…"` names its message.
+//!
 //! What stands in no message, such as the text of a file, is marked `#[fault(untold)]`; what holds that text, `#[source_code]`;
-//! the faults that it is made of, `#[related]`.
+//! the faults that it is made of, `#[related]`; a field `source` is its cause.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -32,6 +34,7 @@ pub fn fault(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 struct Said {
     family: Option<Ident>,
     code: Option<String>,
+    message: Option<String>,
     warning: bool,
     transparent: bool,
     untold: bool,
@@ -43,6 +46,8 @@ fn said(attributes: &[syn::Attribute]) -> Result<Said> {
         attribute.parse_nested_meta(|meta| {
             if meta.path.is_ident("code") {
                 said.code = Some(meta.value()?.parse::<LitStr>()?.value());
+            } else if meta.path.is_ident("message") {
+                said.message = Some(meta.value()?.parse::<LitStr>()?.value());
             } else if meta.path.is_ident("warning") {
                 said.warning = true;
             } else if meta.path.is_ident("transparent") {
@@ -114,6 +119,14 @@ fn derived(input: &DeriveInput) -> Result<TokenStream> {
                 match self { #(#inner)* _ => ::std::option::Option::None }
             }
         }
+        impl ::orthoframe_units::Value for #name {
+            fn told(
+                &self,
+                language: ::orthoframe_units::Language,
+            ) -> ::std::option::Option<::orthoframe_units::Argument<'_>> {
+                ::std::option::Option::Some(::orthoframe_units::Fault::tell(self, language).into())
+            }
+        }
         impl ::std::fmt::Display for #name {
             fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
                 f.write_str(&::orthoframe_units::Fault::tell(self, ::orthoframe_units::Language::Russian))
@@ -180,6 +193,10 @@ impl Arms {
                     }
                 });
             }
+            if field.ident.as_ref().is_some_and(|ident| ident == "source") {
+                self.cause
+                    .push(quote!(#path { #member: it, .. } => ::std::option::Option::Some(it),));
+            }
             if has(field, "source_code") {
                 self.text
                     .push(quote!(#path { #member: it, .. } => ::std::option::Option::Some(it),));
@@ -195,7 +212,9 @@ impl Arms {
         if said.transparent {
             self.kind.push(quote!(#path { .. } => ::std::option::Option::None,));
             self.values.push(quote!(#path { .. } => ::std::vec::Vec::new(),));
-            self.inner.push(quote!(#path(it) => ::std::option::Option::Some(&*it),));
+            let is_boxed = fields.iter().any(|field| type_text(&field.ty).starts_with("Box <"));
+            let within = if is_boxed { quote!(&**it) } else { quote!(it) };
+            self.inner.push(quote!(#path(it) => ::std::option::Option::Some(#within),));
             self.cause.push(quote!(#path(it) => ::std::error::Error::source(it),));
             return Ok(());
         }
@@ -216,10 +235,13 @@ impl Arms {
             members.push(member);
             idents.push(ident);
         }
+        let message =
+            said.message.clone().unwrap_or_else(|| code.replace("::", "-").replace('_', "-"));
         let (warning, number) = (said.warning, self.kinds.len());
         self.kinds.push(quote! {
             ::orthoframe_units::Kind {
                 code: #code,
+                message: #message,
                 warning: #warning,
                 fields: &[#(#names),*],
                 places: &[#(#places),*],
@@ -262,6 +284,9 @@ fn snake(name: &str) -> String {
 
 /// Whether a field is a stretch of a text, or one that may be left out.
 fn is_place(kind: &syn::Type) -> bool {
-    let text = quote!(#kind).to_string();
-    ["SourceSpan", "Option < SourceSpan >"].contains(&text.as_str())
+    ["SourceSpan", "Option < SourceSpan >"].contains(&type_text(kind).as_str())
+}
+
+fn type_text(kind: &syn::Type) -> String {
+    quote!(#kind).to_string()
 }

@@ -9,88 +9,115 @@ use fluent_syntax::ast::{
     CallArguments, Entry, Expression, InlineExpression, Pattern, PatternElement,
 };
 
-use super::{COMMON, Kind, Messages};
+use super::{COMMON, FUNCTIONS, Kind, Messages};
 
-/// A message or an attribute (`message.attribute`): the arguments and the messages that it names.
-type Named = BTreeMap<String, [BTreeSet<String>; 2]>;
+/// What a message or an attribute (`message.attribute`) names.
+#[derive(Debug, Default)]
+struct Names {
+    /// Arguments that are told.
+    told: BTreeSet<String>,
+    /// Arguments by which grammar chooses, as it must in one language and need not in the other.
+    chosen: BTreeSet<String>,
+    messages: BTreeSet<String>,
+}
+
+type Named = BTreeMap<String, Names>;
+
+/// The messages of a crate in one language, with those that all crates have.
+struct Read {
+    own: Named,
+    alike: Named,
+}
 
 /// A line for each thing that is amiss.
 #[must_use]
 pub fn amiss_in(messages: &Messages, kinds: &[&[Kind]], sources: &str) -> String {
     let mut amiss = Vec::new();
-    let alike = [0, 1].map(|i| named(&COMMON[i], "units.ftl", &mut amiss));
-    let own = [0, 1].map(|i| named(&messages.texts[i], ["ru", "en"][i], &mut amiss));
-    let is_common = std::ptr::eq(messages, &crate::MESSAGES);
-
-    for (one, other, language) in [(&own[0], &own[1], "en"), (&own[1], &own[0], "ru")] {
-        for (name, [arguments, _]) in one {
-            match other.get(name) {
-                None => amiss.push(format!("{language}: {name} is missing")),
-                Some([others, _]) if arguments != others && language == "en" => {
-                    amiss.push(format!("{name}: {arguments:?} in ru, {others:?} in en"));
-                }
-                Some(_) => {}
-            }
+    let [ru, en] = [0, 1].map(|i| {
+        let language = ["ru", "en"][i];
+        let mut faults = Vec::new();
+        let read = Read {
+            own: named(&messages.texts[i], &mut faults),
+            alike: named(&COMMON[i], &mut Vec::new()),
+        };
+        amiss.extend(faults.into_iter().map(|fault| format!("{language}: {fault}")));
+        read
+    });
+    for (one, other, language) in [(&ru, &en, "en"), (&en, &ru, "ru")] {
+        let missing = one.own.keys().filter(|name| !other.own.contains_key(*name));
+        amiss.extend(missing.map(|name| format!("{language}: {name} is missing")));
+    }
+    for (name, names) in &ru.own {
+        if let Some(other) = en.own.get(name).filter(|other| other.told != names.told) {
+            amiss.push(format!("{name}: {:?} in ru, {:?} in en", names.told, other.told));
         }
     }
-    let own = &own[0];
-    let mut asked: BTreeSet<String> = BTreeSet::new();
+
+    let mut asked = BTreeSet::new();
     for kind in kinds.iter().copied().flatten() {
-        let message = kind.message();
-        if !own.contains_key(&message) {
-            amiss.push(format!("no message {message}"));
+        if !ru.own.contains_key(kind.message) {
+            amiss.push(format!("no message {}", kind.message));
         }
-        for (name, [arguments, referred]) in own.range(message.clone()..) {
-            let (of, attribute) = name.split_once('.').unwrap_or((name, ""));
-            if of != message {
-                // Other messages may stand between one and its attributes: «a-b» between «a» and «a.help».
-                if !of.starts_with(&message) {
-                    break;
-                }
-                continue;
-            }
-            let known = ["", "help"].contains(&attribute) || kind.places.contains(&attribute);
-            if known && !(attribute == "help" && kind.fields.contains(&"help")) {
-                asked.insert(name.clone());
-            }
-            let within = referred.iter().filter_map(|r| Some(&own.get(r).or(alike[0].get(r))?[0]));
-            for argument in arguments.iter().chain(within.flatten()) {
-                if !kind.fields.contains(&argument.as_str()) {
-                    amiss.push(format!("{name}: {} has no {argument}", kind.code));
-                }
-            }
+        let attributes = kind.places.iter().copied();
+        let attributes = attributes.chain((!kind.fields.contains(&"help")).then_some("help"));
+        let attributes = attributes.map(|attribute| format!("{}.{attribute}", kind.message));
+        for name in attributes.chain([kind.message.to_owned()]) {
+            let arguments = ru.arguments(&name).into_iter().chain(en.arguments(&name));
+            let unknown = arguments.filter(|name| !kind.fields.contains(&name.as_str()));
+            amiss.extend(unknown.map(|it| format!("{name}: {} has no {it}", kind.code)));
+            asked.insert(name);
         }
     }
     for (message, given) in told_in(Path::new(sources)) {
-        let Some([arguments, _]) = own.get(&message).or(alike[0].get(&message)) else {
+        let arguments: BTreeSet<_> =
+            ru.arguments(&message).into_iter().chain(en.arguments(&message)).collect();
+        if ru.names(&message).is_none() {
             amiss.push(format!("no message {message}"));
-            continue;
-        };
-        if *arguments != given {
+        } else if arguments != given {
             amiss.push(format!("{message}: {arguments:?} in its text, {given:?} in said!"));
         }
         asked.insert(message);
     }
-    asked.extend(own.values().flat_map(|[_, referred]| referred.clone()));
-    if !is_common {
-        let unused = own.keys().filter(|name| !asked.contains(*name));
+    for names in ru.own.values().chain(en.own.values()) {
+        let unknown = names.messages.iter().filter(|name| ru.names(name).is_none());
+        amiss.extend(unknown.map(|name| format!("no message {name}")));
+        asked.extend(names.messages.iter().cloned());
+    }
+    // What all crates have, each takes as it needs it.
+    if !std::ptr::eq(messages, &crate::MESSAGES) {
+        let unused = ru.own.keys().filter(|name| !asked.contains(*name));
         amiss.extend(unused.map(|name| format!("{name} is told nowhere")));
     }
     amiss.join("\n")
 }
 
+impl Read {
+    fn names(&self, message: &str) -> Option<&Names> {
+        self.own.get(message).or(self.alike.get(message))
+    }
+
+    /// The arguments of a message, those of the messages in it among them.
+    fn arguments(&self, message: &str) -> BTreeSet<String> {
+        let Some(names) = self.names(message) else { return BTreeSet::new() };
+        // Fluent itself stops where a message leads back to itself.
+        let within = names.messages.iter().filter(|within| *within != message);
+        let within = within.flat_map(|within| self.arguments(within));
+        names.told.union(&names.chosen).cloned().chain(within).collect()
+    }
+}
+
 /// What a file has.
-fn named(text: &str, file: &str, amiss: &mut Vec<String>) -> Named {
+fn named(text: &str, amiss: &mut Vec<String>) -> Named {
     let read = FluentResource::try_new(text.to_owned()).unwrap_or_else(|(read, faults)| {
-        amiss.extend(faults.iter().map(|fault| format!("{file}: {fault}")));
+        amiss.extend(faults.iter().map(ToString::to_string));
         read
     });
     let mut named = Named::new();
     let mut add = |name: String, pattern: &Pattern<&str>, amiss: &mut Vec<String>| {
-        let mut within = Default::default();
-        of_pattern(pattern, &mut within);
-        if named.insert(name.clone(), within).is_some() {
-            amiss.push(format!("{file}: {name} twice"));
+        let mut names = Names::default();
+        names.of_pattern(pattern, amiss);
+        if named.insert(name.clone(), names).is_some() {
+            amiss.push(format!("{name} twice"));
         }
     };
     for entry in read.entries() {
@@ -105,49 +132,55 @@ fn named(text: &str, file: &str, amiss: &mut Vec<String>) -> Named {
                 }
             }
             Entry::Comment(_) | Entry::GroupComment(_) | Entry::ResourceComment(_) => {}
-            other => amiss.push(format!("{file}: {other:?}")),
+            other => amiss.push(format!("{other:?}")),
         }
     }
     named
 }
 
-fn of_pattern(pattern: &Pattern<&str>, found: &mut [BTreeSet<String>; 2]) {
-    for element in &pattern.elements {
-        match element {
-            PatternElement::Placeable { expression: Expression::Inline(inline) } => {
-                of_inline(inline, found);
+impl Names {
+    fn of_pattern(&mut self, pattern: &Pattern<&str>, amiss: &mut Vec<String>) {
+        for element in &pattern.elements {
+            if let PatternElement::Placeable { expression } = element {
+                self.of_expression(expression, amiss);
             }
-            PatternElement::Placeable { expression: Expression::Select { selector, variants } } => {
-                of_inline(selector, found);
-                variants.iter().for_each(|variant| of_pattern(&variant.value, found));
-            }
-            PatternElement::TextElement { .. } => {}
         }
     }
-}
 
-fn of_inline(inline: &InlineExpression<&str>, found: &mut [BTreeSet<String>; 2]) {
-    match inline {
-        InlineExpression::VariableReference { id } => {
-            found[0].insert(id.name.to_owned());
+    fn of_expression(&mut self, expression: &Expression<&str>, amiss: &mut Vec<String>) {
+        match expression {
+            Expression::Inline(inline) => self.of_inline(inline, amiss),
+            Expression::Select { selector, variants } => {
+                let mut choice = Self::default();
+                choice.of_inline(selector, amiss);
+                self.chosen.extend(choice.told);
+                variants.iter().for_each(|variant| self.of_pattern(&variant.value, amiss));
+            }
         }
-        InlineExpression::MessageReference { id, attribute } => {
-            let attribute = attribute.as_ref().map(|attribute| format!(".{}", attribute.name));
-            found[1].insert(id.name.to_owned() + &attribute.unwrap_or_default());
+    }
+
+    fn of_inline(&mut self, inline: &InlineExpression<&str>, amiss: &mut Vec<String>) {
+        match inline {
+            InlineExpression::VariableReference { id } => {
+                self.told.insert(id.name.to_owned());
+            }
+            InlineExpression::MessageReference { id, attribute } => {
+                let attribute = attribute.as_ref().map(|attribute| format!(".{}", attribute.name));
+                self.messages.insert(id.name.to_owned() + &attribute.unwrap_or_default());
+            }
+            InlineExpression::FunctionReference { id, arguments } => {
+                if !FUNCTIONS.contains(&id.name) {
+                    amiss.push(format!("no function {}", id.name));
+                }
+                let CallArguments { positional, .. } = arguments;
+                positional.iter().for_each(|argument| self.of_inline(argument, amiss));
+            }
+            InlineExpression::Placeable { expression } => self.of_expression(expression, amiss),
+            InlineExpression::StringLiteral { .. } | InlineExpression::NumberLiteral { .. } => {}
+            InlineExpression::TermReference { id, .. } => {
+                amiss.push(format!("a term: {}", id.name));
+            }
         }
-        InlineExpression::FunctionReference {
-            arguments: CallArguments { positional, .. }, ..
-        } => {
-            positional.iter().for_each(|argument| of_inline(argument, found));
-        }
-        InlineExpression::Placeable { expression } => {
-            let expression = (**expression).clone();
-            of_pattern(
-                &Pattern { elements: vec![PatternElement::Placeable { expression }] },
-                found,
-            );
-        }
-        _ => {}
     }
 }
 
