@@ -89,3 +89,5 @@ use orthoframe_store as store;
 use orthoframe_strips as strips;
 use orthoframe_units as units;
 use orthoframe_vectors as vectors;
+
+units::messages!("../rules/messages", "engine", engine::RequestError);

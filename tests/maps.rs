@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use expect_test::expect_file;
 use miette::Diagnostic;
 use orthoframe_geometry::{DoorStates, FloorPlan, Method, Target};
-use orthoframe_map::{DoorState, EnglishMapErrors, Format, MapErrors, Reading, World, check, read};
+use orthoframe_map::{DoorState, Format, MapErrors, Reading, World, check, read};
 use orthoframe_units::{Cm, Source};
 
 use proptest::prelude::*;
@@ -43,7 +43,7 @@ fn listing(reading: &Reading) -> String {
 
 /// Every fault in English with its remedy.
 fn in_english(faults: &MapErrors) -> String {
-    let english = EnglishMapErrors::from(faults);
+    let english = faults.in_english();
     let mut text = format!("{english}\n");
     for fault in english.related().into_iter().flatten() {
         let help = fault.help().expect("every fault has a remedy");

@@ -300,7 +300,7 @@ fn a_threshold_that_cannot_be_is_refused_with_its_place() {
         &STANDARD,
         "limit(\"detected\", \"wall gap\", 900).\nlimit(\"surveyed\", \"close distance\", -100).\n  limit(\"common\", \"wall gap\", 2000).\n",
     );
-    let Err(orthoframe::engine::Error::Relations(RelationError::Thresholds { faults })) =
+    let Err(orthoframe::engine::Error::Relations(RelationError::Thresholds { faults, .. })) =
         Rules::read(Some(dir.path()))
     else {
         panic!("two of the three thresholds cannot be meant")

@@ -1,7 +1,7 @@
 //! Notes on standard error: what a command noticed beside what it was asked for.
 
 use crate::engine::{Engine, Sighted};
-use crate::map::{EnglishMapErrors, MapErrors};
+use crate::map::MapErrors;
 use crate::recording::Played;
 
 use super::args::{Common, Lang};
@@ -85,7 +85,7 @@ pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
     note(
         match lang {
             Lang::Ru => drawn(warnings, Lang::Ru),
-            Lang::En => drawn(&EnglishMapErrors::from(warnings), Lang::En),
+            Lang::En => drawn(&warnings.in_english(), Lang::En),
         }
         .trim_end(),
     );

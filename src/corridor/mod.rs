@@ -25,11 +25,12 @@ use orthoframe_geometry as geometry;
 use orthoframe_map as map;
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "corridor", CorridorError, CorridorFault);
+
 mod arms;
 mod command;
 mod directions;
 mod double;
-mod english;
 mod error;
 mod fault;
 mod figure;

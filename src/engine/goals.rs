@@ -196,7 +196,7 @@ impl State {
                         return match (command, self.homes()?.remove(&name(what.id))) {
                             (Command::PutAway(_), Some(home)) => {
                                 let things = vec![(both(what.id), in_both(world, &home))];
-                                Err(RequestError::AtHome { things }.into())
+                                Err(RequestError::at_home(&things).into())
                             }
                             _ => Ok(Vec::new()),
                         };
@@ -243,8 +243,7 @@ impl State {
         let world = self.world()?;
         let name = world.name(thing).to_owned();
         let home = self.homes()?.remove(&name);
-        let home =
-            home.ok_or_else(|| RequestError::Homeless { things: vec![in_both(world, &name)] })?;
+        let home = home.ok_or_else(|| RequestError::homeless(vec![in_both(world, &name)]))?;
         belief.homes.push((name.clone(), home));
         Ok(vec![vec![fact(predicate::IN_ITS_PLACE, vec![name])]])
     }

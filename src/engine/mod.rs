@@ -41,7 +41,6 @@ mod doubtful;
 mod doubts;
 mod drawing;
 mod edit;
-mod english;
 mod error;
 mod export;
 pub(crate) mod forms;

@@ -167,11 +167,11 @@ impl State {
         match (left.len() == put.len(), own.strays.is_empty(), own.kept.is_empty()) {
             (true, false, true) => {
                 let things = own.strays.iter().map(both).collect();
-                return Err(RequestError::Homeless { things }.into());
+                return Err(RequestError::homeless(things).into());
             }
             (true, true, false) => {
                 let things = own.kept.iter().map(|(thing, home)| (both(thing), both(home)));
-                return Err(RequestError::AtHome { things: things.collect() }.into());
+                return Err(RequestError::at_home(&things.collect::<Vec<_>>()).into());
             }
             _ => {}
         }
@@ -203,8 +203,7 @@ impl State {
     ) -> Result<Option<String>, Error> {
         let world = self.world()?;
         let home = self.homes()?.remove(thing);
-        let home =
-            home.ok_or_else(|| RequestError::Homeless { things: vec![in_both(world, thing)] })?;
+        let home = home.ok_or_else(|| RequestError::homeless(vec![in_both(world, thing)]))?;
         Ok((supports(self.uncarried()?, relations).get(thing) != Some(&home)).then_some(home))
     }
 

@@ -50,7 +50,7 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<Source, ReadError> {
         if PICTURES.iter().any(|magic| bytes.starts_with(magic)) {
             return Err(ReadError::Picture { name: name.to_owned() });
         }
-        return Err(ReadError::NotText { name: name.to_owned(), at, byte: bytes[at] });
+        return Err(ReadError::NotText { name: name.to_owned(), at, byte: hex(bytes[at]) });
     }
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(name, text)),
@@ -94,7 +94,11 @@ fn windows_1251(byte: u8) -> char {
 
 fn not_text(name: &str, bytes: &[u8]) -> ReadError {
     let at = std::str::from_utf8(bytes).err().map_or(0, |e| e.valid_up_to());
-    ReadError::NotText { name: name.to_owned(), at, byte: bytes.get(at).copied().unwrap_or(0) }
+    ReadError::NotText { name: name.to_owned(), at, byte: hex(bytes.get(at).copied().unwrap_or(0)) }
+}
+
+fn hex(byte: u8) -> String {
+    format!("{byte:#04x}")
 }
 
 #[cfg(test)]

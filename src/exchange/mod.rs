@@ -18,8 +18,9 @@ use orthoframe_map as map;
 use orthoframe_store as store;
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "exchange", ImportError, ReadError, report::Why);
+
 mod assemble;
-mod english;
 mod error;
 mod export;
 mod fault;

@@ -272,7 +272,10 @@ fn accepted(mut imported: Imported, options: &Options) -> Result<Imported, Impor
         imported.world.domain.profile = profile;
     }
     if options.strict && !imported.report.is_clean() {
-        return Err(ImportError::Strict { report: Box::new(imported.report) });
+        let report = Box::new(imported.report);
+        let [mended, skipped] =
+            [super::Treatment::Mended, super::Treatment::Skipped].map(|t| report.count(t));
+        return Err(ImportError::Strict { mended, skipped, report });
     }
     Ok(imported)
 }

@@ -8,9 +8,8 @@ use std::fmt;
 
 use miette::Diagnostic;
 use serde::Serialize;
-use thiserror::Error;
 
-use crate::units::{Bilingual, InEnglish, Language, Lengths};
+use crate::units::{Bilingual, Fault as _, Language};
 
 /// What became of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -89,150 +88,108 @@ impl What {
     }
 }
 
-/// A length in cm.
-fn told(cm: u32) -> String {
-    Lengths::said().told(f64::from(cm), 0, Language::Russian)
-}
-
 /// Why a record was mended or left out. Numbers are rounded for people; lengths in cm, areas in m².
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, crate::units::Fault)]
+#[fault(import)]
 #[non_exhaustive]
 pub enum Why {
     /// Fewer than three different corners, or less floor than a robot's foot.
-    #[error("контур вырожден: площадь меньше {}", Lengths::said().told_area(f64::from(*least), 0, Language::Russian))]
-    #[diagnostic(code(import::no_outline))]
     NoOutline { least: u32 },
+
     /// Rings that cross themselves: the largest simple part is kept.
-    #[error("контур пересекал сам себя; оставлена наибольшая часть")]
-    #[diagnostic(code(import::outline_crosses))]
     OutlineCrosses,
+
     /// Two rooms claim one piece of floor.
-    #[error("накладывалось на «{other}»; общий пол остался за ним")]
-    #[diagnostic(code(import::rooms_overlap))]
     RoomsOverlap { other: String },
+
     /// One room drawn twice.
-    #[error("повторяет «{other}»")]
-    #[diagnostic(code(import::room_twice))]
     RoomTwice { other: String },
+
     /// Subtraction cut pieces off a room that are too narrow to be floor.
-    #[error("разрезано наложением; части уже {} отброшены", told(20))]
-    #[diagnostic(code(import::room_cut))]
     RoomCut,
+
     /// Subtraction cut a room apart.
-    #[error("разрезано наложением на {parts}; каждая часть стала помещением")]
-    #[diagnostic(code(import::room_parted))]
     RoomParted { parts: usize },
+
     /// A hole outside of its room, or without area.
-    #[error("вырез в контуре непригоден")]
-    #[diagnostic(code(import::bad_hole))]
     BadHole,
+
     /// One id or name for several records.
-    #[error("имя «{name}» уже занято; дано имя «{given}»")]
-    #[diagnostic(code(import::duplicate_name))]
     DuplicateName { name: String, given: String },
+
     /// One id for several records.
-    #[error("обозначение «{id}» дано не один раз")]
-    #[diagnostic(code(import::duplicate_id))]
     DuplicateId { id: String },
+
     /// A reference that leads nowhere.
-    #[error("ссылается на «{to}», чего в файле нет")]
-    #[diagnostic(code(import::dangling))]
     Dangling { to: String },
+
     /// An opening with no room beside it.
-    #[error("рядом нет ни одного помещения")]
-    #[diagnostic(code(import::no_room))]
     NoRoom,
+
     /// An opening amid one room's floor.
-    #[error("стоит внутри одного помещения, вдали от стен")]
-    #[diagnostic(code(import::within_room))]
     WithinRoom,
+
     /// An opening that lies along three rooms or more.
-    #[error("касается не двух помещений; взяты «{one}» и «{other}»")]
-    #[diagnostic(code(import::several_rooms))]
     SeveralRooms { one: String, other: String },
+
     /// The rooms that a door names lie elsewhere.
-    #[error("не примыкает к «{room}», которое называет; помещения найдены по месту")]
-    #[diagnostic(code(import::other_room))]
     OtherRoom { room: String },
+
     /// Narrower than nothing can pass.
-    #[error("ширина меньше {}", told(*least))]
-    #[diagnostic(code(import::too_narrow))]
     TooNarrow { least: u32 },
+
     /// The wall is shorter than the opening.
-    #[error("ширина уменьшена с {} до {}: стена короче или проём занят", told(*from), told(*to))]
-    #[diagnostic(code(import::narrowed))]
     Narrowed { from: u32, to: u32 },
+
     /// No free stretch of wall.
-    #[error("не помещается в стену: она занята другим проёмом, слишком коротка или далека")]
-    #[diagnostic(code(import::no_wall))]
     NoWall,
+
     /// A value out of its range.
-    #[error("{what}: негодное значение {value}")]
-    #[diagnostic(code(import::bad_value))]
     BadValue { what: Bilingual, value: Bilingual },
+
     /// A field that should be there.
-    #[error("нет поля «{field}»")]
-    #[diagnostic(code(import::missing_field))]
     MissingField { field: &'static str },
+
     /// A thing in no room.
-    #[error("стоит вне всех помещений")]
-    #[diagnostic(code(import::outside))]
     Outside,
+
     /// A thing elsewhere than said.
-    #[error("стоит не в «{room}», которое названо; помещение найдено по месту")]
-    #[diagnostic(code(import::thing_elsewhere))]
     ThingElsewhere { room: String },
+
     /// A kind whose parts lie in one another.
-    #[error("части вида накладывались; лишнее отрезано")]
-    #[diagnostic(code(import::parts_overlap))]
     PartsOverlap,
+
     /// The file does not tell how large it is.
-    #[error("размеры вида «{kind}» неизвестны: поставлена плоская метка")]
-    #[diagnostic(code(import::unknown_size))]
     UnknownSize { kind: String },
+
     /// A word that the synonym table lacks.
-    #[error("слово «{word}» не значится в таблице синонимов: тип не дан")]
-    #[diagnostic(code(import::unknown_word))]
     UnknownWord { word: String },
+
     /// A lift that stops on one floor only.
-    #[error("соединяет меньше двух этажей")]
-    #[diagnostic(code(import::lift_stops))]
     LiftStops,
+
     /// Rooms of several storeys that belong together.
-    #[error("соединяет этажи, но ни лифт это, ни лестница, файл не говорит; пути по нему нет")]
-    #[diagnostic(code(import::no_lift))]
     NoLift,
+
     /// Rooms that no door joins with the others.
-    #[error("дверями с остальными не соединено; положение задано связью глухих стен")]
-    #[diagnostic(code(import::island))]
     Island,
+
     /// A lane that ends where no room is.
-    #[error("кончается вне всех помещений")]
-    #[diagnostic(code(import::lane_off_floor))]
     LaneOffFloor,
+
     /// A lane that leads through a wall.
-    #[error("проходит сквозь стену, где нет проёма: «{rooms}»")]
-    #[diagnostic(code(import::lane_through_wall))]
     LaneThroughWall { rooms: String },
+
     /// A level without a room.
-    #[error("на этаже нет ни одного помещения")]
-    #[diagnostic(code(import::empty_level))]
     EmptyLevel,
+
     /// A record of a sort that the Map has no place for.
-    #[error("записи вида «{kind}» не переносятся")]
-    #[diagnostic(code(import::not_carried))]
     NotCarried { kind: String },
+
     /// Boxes that a person's measuring would not have given.
-    #[error(
-        "коробки неточны: у вещей {off} из {of} низ дальше {} от того, на чём они стоят; взят профиль «detected» \
-         (другой: --profile surveyed)",
-        told(2)
-    )]
-    #[diagnostic(code(import::loose_boxes))]
     LooseBoxes { off: usize, of: usize },
+
     /// What a reader has to tell beyond these.
-    #[error("{text}")]
-    #[diagnostic(code(import::other))]
     Other { text: Bilingual },
 }
 
@@ -246,10 +203,7 @@ impl Why {
     /// The text in a language.
     #[must_use]
     pub fn say(&self, language: Language) -> String {
-        match language {
-            Language::Russian => self.to_string(),
-            Language::English => self.english(),
-        }
+        self.tell(language)
     }
 }
 
@@ -437,5 +391,11 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.say(Language::Russian))
+    }
+}
+
+impl crate::units::Value for Report {
+    fn told(&self, language: Language) -> Option<crate::units::Argument<'_>> {
+        Some(self.say(language).into())
     }
 }

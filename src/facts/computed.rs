@@ -1,12 +1,11 @@
 //! Relations that somebody computes when they are asked for, and why a question has no answers.
 
 use miette::Diagnostic;
-use thiserror::Error;
 
 use super::evaluate::EvaluateError;
 use super::fault::Faults;
 use super::word::Value;
-use crate::units::{Bilingual, Source};
+use crate::units::{Bilingual, English, Source};
 
 /// A relation that is computed when asked.
 ///
@@ -24,26 +23,33 @@ pub trait Computed {
 }
 
 /// Why a question has no answers.
-#[derive(Debug, Clone, Error, Diagnostic)]
+#[derive(Debug, Clone, crate::units::Fault)]
+#[fault(facts)]
 #[non_exhaustive]
 pub enum AskError {
     /// It reads well and means nothing, or does not read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Faults(#[from] Faults),
+
     /// A limit was reached.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Evaluate(#[from] EvaluateError),
+
     /// A computed relation was to be asked for what it cannot tell.
-    #[error("{place}отношение «{relation}» вычисляется, когда известны {needs}")]
-    #[diagnostic(
-        code(facts::not_known),
-        help("свяжите эти столбцы другими посылками или назовите их значения")
-    )]
+    #[fault(code = "facts::not_known")]
     Blocked { relation: String, needs: Bilingual, place: String },
+
     /// Rules that need rules that need rules …
-    #[error("«{relation}» зависит от слишком длинной цепочки отношений")]
-    #[diagnostic(code(facts::too_deep), help("выведите часть цепочки заранее"))]
     TooDeep { relation: String },
+}
+
+impl AskError {
+    /// The faults as English tells them, each with its place.
+    #[must_use]
+    pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {
+        match self {
+            Self::Faults(faults) => Box::new(faults.in_english()),
+            other => Box::new(English(other)),
+        }
+    }
 }

@@ -2,9 +2,6 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use super::decimal::Decimal;
 use super::kept::Kept;
 use super::program::{Fact, Kind, Program};
@@ -16,21 +13,20 @@ use super::word::{NO_WORD, Value, Word, Words};
 use crate::units::nearest_name;
 
 /// A tuple or a relation that does not fit the program.
-#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, Eq, crate::units::Fault)]
+#[fault(facts)]
 #[non_exhaustive]
 pub enum FactError {
     /// No declaration has this name.
-    #[error("неизвестное отношение «{name}»")]
-    #[diagnostic(code(facts::unknown_relation), help("{}", nearest.as_ref().map_or_else(
-        || "объявите его в файле правил: .decl".to_owned(), |name| format!("может быть, «{name}»?"))))]
+    #[fault(message = "facts-fact-unknown-relation")]
     UnknownRelation { name: String, nearest: Option<String> },
+
     /// A tuple that is too long or too short.
-    #[error("у «{relation}» столбцов {expected}, а дано значений {found}")]
-    #[diagnostic(code(facts::arity), help("сверьтесь с объявлением «{relation}»"))]
+    #[fault(message = "facts-fact-arity")]
     Arity { relation: String, expected: usize, found: usize },
+
     /// A number for a symbol or a symbol for a number.
-    #[error("«{relation}», столбец «{column}»: нужен тип {expected}, а дано «{found}»")]
-    #[diagnostic(code(facts::types), help("сверьтесь с объявлением «{relation}»"))]
+    #[fault(message = "facts-fact-types")]
     Types { relation: String, column: String, expected: String, found: String },
 }
 

@@ -5,9 +5,6 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::time::Instant;
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use super::database::Database;
 use super::derived::Derived;
 use super::finished::Finished;
@@ -28,41 +25,20 @@ use super::trace::RuleTrace;
 use super::word::{Note, Word};
 
 /// Why a program has no result.
-#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, crate::units::Fault)]
+#[fault(facts)]
 #[non_exhaustive]
 pub enum EvaluateError {
     /// A rule that always finds something new, or more than memory should hold.
-    #[error("{rule}: отношение «{relation}» больше {limit} строк")]
-    #[diagnostic(
-        code(facts::too_many),
-        help(
-            "правило, видимо, порождает новое без конца; ограничьте числа в нём сравнением, задайте .limitsize или дайте больше строк (--row-limit)"
-        )
-    )]
     TooMany { relation: String, rule: String, limit: usize },
+
     /// It takes longer than it may.
-    #[error("{rule}: за {seconds} с отношение «{relation}» не выведено, строк пока {rows}")]
-    #[diagnostic(
-        code(facts::time),
-        help(
-            "правило, видимо, порождает новое без конца: ограничьте в нём числа сравнением; или дайте больше времени (--time-limit)"
-        )
-    )]
     Time { relation: String, rule: String, seconds: f64, rows: usize },
+
     /// It takes more memory than it may.
-    #[error(
-        "{rule}: отношение «{relation}» не помещается в {megabytes} МиБ памяти, строк пока {rows}"
-    )]
-    #[diagnostic(
-        code(facts::memory),
-        help(
-            "свяжите посылки правила общими переменными или ограничьте его сравнением; или дайте больше памяти (--memory-limit)"
-        )
-    )]
     Memory { relation: String, rule: String, megabytes: usize, rows: usize },
+
     /// Whoever asked waits no more.
-    #[error("{rule}: отношение «{relation}» не выведено: остановлено")]
-    #[diagnostic(code(facts::stopped))]
     Stopped { relation: String, rule: String },
 }
 

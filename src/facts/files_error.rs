@@ -3,48 +3,35 @@
 use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
-use thiserror::Error;
 
 use super::computed::AskError;
 use super::database::FactError;
 use super::evaluate::EvaluateError;
 use super::fault::Faults;
+use crate::units::English;
 
 /// Why a program over files has no result.
-#[derive(Debug, Error, Diagnostic)]
+#[derive(Debug, crate::units::Fault)]
+#[fault(facts)]
 #[non_exhaustive]
 pub enum FilesError {
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Program(#[from] Faults),
+
     /// A file or folder that cannot be read or written.
-    #[error("{path}: {cause}", path = path.display())]
-    #[diagnostic(
-        code(facts::file),
-        help(
-            "проверьте имя и права: факты отношения r читаются из r.facts, папка для вывода должна уже быть"
-        )
-    )]
     File { path: PathBuf, cause: std::io::Error },
+
     /// A line of facts that does not fit its relation.
-    #[error("{path}:{line}: {cause}", path = path.display())]
-    #[diagnostic(code(facts::line), help("значения разделяются табуляцией, по одному на столбец"))]
     Line { path: PathBuf, line: usize, cause: Box<FactError> },
+
     /// A parameter of `.input` or `.output` that asks for what is not done here.
-    #[error("«{relation}»: не поддерживается {name}={value}")]
-    #[diagnostic(
-        code(facts::parameter),
-        help(
-            "есть IO=file, для .input IO=stdin, для .output IO=stdout, filename, delimiter, headers, rfc4180, для .input columns=\"1:0\""
-        )
-    )]
     Parameter { relation: String, name: String, value: String },
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+
+    #[fault(transparent)]
     Evaluate(#[from] EvaluateError),
+
     /// What comes of `.pragma "magic-transform"`.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Ask(AskError),
 }
 
@@ -59,4 +46,16 @@ impl From<AskError> for FilesError {
 
 pub(super) fn file_error(path: &Path, cause: std::io::Error) -> FilesError {
     FilesError::File { path: path.to_owned(), cause }
+}
+
+impl FilesError {
+    /// The faults as English tells them, each with its place.
+    #[must_use]
+    pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {
+        match self {
+            Self::Program(faults) => Box::new(faults.in_english()),
+            Self::Ask(error) => error.in_english(),
+            other => Box::new(English(other)),
+        }
+    }
 }

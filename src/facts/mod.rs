@@ -55,6 +55,16 @@
 
 use orthoframe_units as units;
 
+units::messages!(
+    "../../rules/messages",
+    "facts",
+    AskError,
+    EvaluateError,
+    FactError,
+    FilesError,
+    RuleError
+);
+
 mod abreast;
 mod apart;
 mod ask;
@@ -73,7 +83,6 @@ mod declared;
 mod delta;
 mod demand;
 mod derived;
-mod english;
 mod evaluate;
 mod explain;
 mod expression;

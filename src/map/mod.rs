@@ -43,6 +43,8 @@
 
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "map", MapError);
+
 mod check;
 mod counterpart;
 mod device;
@@ -63,7 +65,7 @@ pub use check::plane;
 pub use check::{LeastSizes, THICKEST_WALL, Tolerances, check, doubts, news};
 pub use device::{is_dark, is_on, is_open, set_open, stands, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
-pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
+pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{
     Edit, EditReading, Edits, Format, Naming, NewRecord, NextIds, Reading, RobotSaid, Truth, edit,
     json_schema, kinds, locate, read, read_file, read_truth, schema,

@@ -19,12 +19,13 @@ use orthoframe_map as map;
 use orthoframe_semantics as semantics;
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "meaning", fault::LangError);
+
 mod answer;
 mod chart;
 mod check;
 mod cover;
 mod declared;
-mod english;
 mod fault;
 mod features;
 mod file;

@@ -4,7 +4,7 @@ use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, Entity, World};
 use crate::semantics::planning::PlanPlace;
 use crate::semantics::{Followed, Join, Lift, RelationError, RelationRules, lifts, predicate};
-use crate::strips::{Domain, EnglishFaults, OperatorId, Problem, RuleFaults};
+use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
 use crate::units::{MapId, Pose, Stop};
 
 use std::collections::BTreeMap;
@@ -62,7 +62,7 @@ impl MissionError {
     #[must_use]
     pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {
         match self {
-            Self::Rules(faults) => Box::new(EnglishFaults::from(faults)),
+            Self::Rules(faults) => Box::new(faults.in_english()),
             Self::Relations(error) => error.in_english(),
         }
     }

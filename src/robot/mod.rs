@@ -23,6 +23,8 @@ use orthoframe_semantics as semantics;
 use orthoframe_sensing as sensing;
 use orthoframe_strips as strips;
 use orthoframe_units as units;
+
+units::messages!("../../rules/messages", "robot", Failure);
 use orthoframe_vectors as vectors;
 
 mod ahead;

@@ -56,6 +56,8 @@ use orthoframe_geometry as geometry;
 use orthoframe_map as map;
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "semantics", relations::RelationError);
+
 mod ask;
 mod asked;
 mod body;

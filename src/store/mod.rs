@@ -34,6 +34,8 @@
 use orthoframe_map as map;
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "store", StoreError);
+
 mod behind;
 mod cell;
 mod changes;
@@ -42,7 +44,6 @@ mod derived;
 mod diff;
 mod disk;
 mod edits;
-mod english;
 mod error;
 mod frame;
 mod gc;

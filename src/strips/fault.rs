@@ -5,7 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 
 use super::error::RuleError;
-use crate::units::Source;
+use crate::units::{English, EnglishGroup, Fault as _, InEnglish, Language, Source, told};
 
 /// A [`RuleError`] together with the text that it was found in.
 #[derive(Debug, Clone)]
@@ -31,29 +31,44 @@ impl RuleFault {
     #[must_use]
     pub fn position(&self) -> Option<(&str, usize, usize)> {
         let source = self.source.as_ref()?;
-        let label = self.error.labels()?.next()?;
-        let (line, column) = source.position(label.offset());
+        let (line, column) = source.position(self.error.first_span()?.offset());
         Some((source.name(), line, column))
     }
 
     /// The text and the byte in it: what orders faults as their lines do, without counting lines for each of them.
     pub(super) fn place(&self) -> Option<(&str, usize)> {
-        let label = self.error.labels()?.next()?;
-        Some((self.source.as_ref()?.name(), label.offset()))
+        Some((self.source.as_ref()?.name(), self.error.first_span()?.offset()))
     }
 
     #[must_use]
     pub fn is_warning(&self) -> bool {
-        self.error.severity() == Some(Severity::Warning)
+        self.error.is_warning()
+    }
+}
+
+impl RuleFault {
+    fn told(&self, language: Language) -> String {
+        let place = self.position();
+        let place = place.map(|(name, line, column)| format!("{name}:{line}:{column}: "));
+        place.unwrap_or_default() + &self.error.tell(language)
     }
 }
 
 impl fmt::Display for RuleFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.position() {
-            Some((name, line, column)) => write!(f, "{name}:{line}:{column}: {}", self.error),
-            None => self.error.fmt(f),
-        }
+        f.write_str(&self.told(Language::Russian))
+    }
+}
+
+impl InEnglish for RuleFault {
+    fn english(&self) -> String {
+        self.told(Language::English)
+    }
+    fn english_help(&self) -> Option<String> {
+        self.error.english_help()
+    }
+    fn english_label(&self, nth: usize) -> String {
+        self.error.english_label(nth)
     }
 }
 
@@ -96,15 +111,32 @@ impl From<RuleFault> for RuleFaults {
     }
 }
 
-impl fmt::Display for RuleFaults {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl RuleFaults {
+    fn told(&self, language: Language) -> String {
         match self.0.as_slice() {
-            [only] => only.fmt(f),
+            [only] => only.told(language),
             many => {
-                write!(f, "найдено ошибок: {}", many.len())?;
-                many.iter().try_for_each(|fault| write!(f, "\n  {fault}"))
+                let head = told!(language, "strips-faults", count = many.len());
+                many.iter().fold(head, |told, fault| told + "\n  " + &fault.told(language))
             }
         }
+    }
+
+    /// The faults as English tells them.
+    #[must_use]
+    pub fn in_english(&self) -> EnglishGroup<'_> {
+        EnglishGroup {
+            all: self,
+            title: self.told(Language::English),
+            help: None,
+            faults: English::each(&self.0),
+        }
+    }
+}
+
+impl fmt::Display for RuleFaults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.told(Language::Russian))
     }
 }
 

@@ -15,7 +15,7 @@ use super::second::settle_names;
 use super::slip::slips;
 use super::syntax::{Amount, CostTerm, Document, Name};
 use super::task::Task;
-use crate::units::{Bilingual, FileFault, Source, read_text};
+use crate::units::{Bilingual, FileFault, Source, read_text, said};
 
 /// No rule file that a person wrote is longer.
 pub const MAX_FILE_BYTES: u64 = 16 << 20;
@@ -211,10 +211,10 @@ pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
         }
         Err(fault) => match kind(&fault) {
             Some(std::io::ErrorKind::NotFound) => {
-                ("такого файла нет", "there is no such file").into()
+                said!("strips-no-such-file")
             }
             Some(std::io::ErrorKind::PermissionDenied) => {
-                ("нет прав на чтение", "there is no permission to read it").into()
+                said!("strips-no-permission")
             }
             _ => Bilingual::new(fault.to_string(), fault.english()),
         },
@@ -267,7 +267,7 @@ impl Loader {
                     path: include.text.clone(),
                     reason: match *fault.error {
                         RuleError::Unreadable { reason, .. } => reason,
-                        other => Bilingual::new(other.to_string(), other.english()),
+                        other => Bilingual::of(&other),
                     },
                     at,
                 })),

@@ -24,6 +24,8 @@
 
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "strips", RuleError);
+
 mod attain;
 mod bystander;
 mod cases;
@@ -33,7 +35,6 @@ mod declare;
 mod domain;
 mod draft;
 mod durative;
-mod english;
 mod error;
 mod exchange;
 mod explain;
@@ -71,7 +72,6 @@ pub use domain::{
     Schema, SchemaAtom, SchemaCost, SchemaTerm,
 };
 pub use draft::GOAL_STEP;
-pub use english::EnglishFaults;
 pub use error::{Place, RuleError};
 pub use explain::{Clash, Missing, Obstacle, Turn, explain_unreachable};
 pub use fault::{RuleFault, RuleFaults};

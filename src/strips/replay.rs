@@ -15,7 +15,7 @@ use super::plan_text::{Directive, PlanText};
 use super::price::cost;
 use super::problem::Problem;
 use super::resolve::{GroundAtom, Resolved, ThingId};
-use crate::units::{Bilingual, Source, name_key, nearest_name};
+use crate::units::{Bilingual, Source, name_key, nearest_name, said};
 
 /// What came of carrying out a plan.
 #[derive(Debug, Clone)]
@@ -131,7 +131,7 @@ impl Replay<'_> {
             })
             .chain(unequal)
             .chain(self.unmet_formulas(state))
-            .map(|fact| RuleFault::placeless(RuleError::PlanMissesGoal { fact }))
+            .map(|fact| RuleFault::placeless(RuleError::PlanMissesGoal { fact: told(fact) }))
             .collect();
         (!faults.is_empty()).then_some(RuleFaults(faults))
     }
@@ -227,7 +227,7 @@ impl Replay<'_> {
                 };
                 if let Some(atom) = breaks(a, b).or_else(|| breaks(b, a)) {
                     faults.push(self.fault(RuleError::PlanInterference {
-                        fact: self.shown(&atom),
+                        fact: self.shown(&atom).into(),
                         other: first.action.clone(),
                         at: second.at,
                     }));
@@ -285,7 +285,9 @@ impl Replay<'_> {
             .chain(unmet)
             .chain(unequal)
             .chain(equal)
-            .map(|fact| self.fault(RuleError::PlanPrecondition { fact, at: directive.at }))
+            .map(|fact| {
+                self.fault(RuleError::PlanPrecondition { fact: told(fact), at: directive.at })
+            })
             .collect();
         if !faults.is_empty() {
             return Err(RuleFaults(faults));
@@ -405,5 +407,13 @@ impl Replay<'_> {
             .map(|thing| self.resolved.things[thing.index()].name.as_str())
             .collect();
         format!("{}_({})", self.domain.predicates[atom.predicate.index()].name, args.join(", "))
+    }
+}
+
+/// A fact as both languages have it: only a negation is worded.
+fn told(fact: String) -> Bilingual {
+    match fact.strip_prefix("НЕ ") {
+        Some(fact) => said!("strips-denied", fact),
+        None => fact.into(),
     }
 }

@@ -13,6 +13,10 @@ pub trait InEnglish: Diagnostic {
     fn english_labels(&self) -> [&'static str; 2] {
         ["here", "and here"]
     }
+    /// What its label of this number says.
+    fn english_label(&self, nth: usize) -> String {
+        self.english_labels()[nth.min(1)].to_owned()
+    }
 }
 
 /// A fault as English tells it.
@@ -41,34 +45,40 @@ impl<F: InEnglish> Diagnostic for English<'_, F> {
         self.0.source_code()
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let [first, further] = self.0.english_labels();
-        let told = std::iter::once(first).chain(std::iter::repeat(further));
-        let label = |(label, told): (LabeledSpan, &str)| {
-            LabeledSpan::new_with_span(Some(told.to_owned()), *label.inner())
+        let label = |(nth, label): (usize, LabeledSpan)| {
+            LabeledSpan::new_with_span(Some(self.0.english_label(nth)), *label.inner())
         };
-        Some(Box::new(self.0.labels()?.zip(told).map(label)))
+        Some(Box::new(self.0.labels()?.enumerate().map(label)))
+    }
+}
+
+impl<'f, F: InEnglish> English<'f, F> {
+    /// Each of several, for a [`EnglishGroup`].
+    #[must_use]
+    pub fn each(faults: &'f [F]) -> Vec<Box<dyn Diagnostic + 'f>> {
+        faults.iter().map(|fault| Box::new(Self(fault)) as _).collect()
     }
 }
 
 /// Faults that stand together, as English tells them.
 #[derive(Debug)]
-pub struct EnglishGroup<'f, F> {
+pub struct EnglishGroup<'f> {
     pub all: &'f dyn Diagnostic,
     /// What is told of all of them in a line.
     pub title: String,
     pub help: Option<String>,
-    pub faults: Vec<English<'f, F>>,
+    pub faults: Vec<Box<dyn Diagnostic + 'f>>,
 }
 
-impl<F: InEnglish> fmt::Display for EnglishGroup<'_, F> {
+impl fmt::Display for EnglishGroup<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.title)
     }
 }
 
-impl<F: InEnglish> std::error::Error for EnglishGroup<'_, F> {}
+impl std::error::Error for EnglishGroup<'_> {}
 
-impl<F: InEnglish> Diagnostic for EnglishGroup<'_, F> {
+impl Diagnostic for EnglishGroup<'_> {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.all.code()
     }
@@ -82,6 +92,6 @@ impl<F: InEnglish> Diagnostic for EnglishGroup<'_, F> {
         self.all.source_code()
     }
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        Some(Box::new(self.faults.iter().map(|fault| fault as _)))
+        Some(Box::new(self.faults.iter().map(|fault| &**fault as _)))
     }
 }

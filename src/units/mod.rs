@@ -16,6 +16,8 @@
 //! A `Cm` and a `Deg` are finite. Rotations by multiples of 90° are exact. A line and column shown to a person
 //! count characters.
 
+extern crate self as orthoframe_units;
+
 mod bilingual;
 mod carried;
 mod english;
@@ -30,6 +32,7 @@ mod quantity;
 mod source;
 mod stop;
 mod time;
+mod told;
 
 pub use bilingual::Bilingual;
 #[cfg(feature = "packed")]
@@ -50,3 +53,10 @@ pub use quantity::{Cm, Deg, QuantityError};
 pub use source::{OwnText, Source};
 pub use stop::Stop;
 pub use time::{Timestamp, TimestampError};
+pub use told::check::amiss_in;
+pub use told::{Argument, Fault, Kind, Listed, Messages, Value, here};
+
+/// A fault of which the words stand in message files, see the trait.
+pub use orthoframe_units_fault::Fault;
+
+messages!("../../rules/messages", "units");

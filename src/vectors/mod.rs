@@ -22,6 +22,14 @@
 //! All coordinates and covariances are finite. A segment's ends are never exchanged silently: [`Segment::reversed`]
 //! exchanges points, ends and covariances together.
 
+orthoframe_units::messages!(
+    "../../rules/messages",
+    "vectors",
+    picture::PictureError,
+    read::LogFault,
+    scan::SensorError
+);
+
 pub mod change;
 mod contour;
 pub mod costs;

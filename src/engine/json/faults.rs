@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::language::Language;
-use crate::map::{EnglishMapErrors, MapErrors};
+use crate::map::MapErrors;
 use crate::units::OwnText;
 
 /// One fault.
@@ -43,7 +43,7 @@ pub(super) fn warnings(warnings: &MapErrors, language: Language) -> Vec<Value> {
     match language {
         _ if warnings.faults.is_empty() => Vec::new(),
         Language::Russian => faults(warnings),
-        Language::English => faults(&EnglishMapErrors::from(warnings)),
+        Language::English => faults(&warnings.in_english()),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::language::Language;
 use crate::robot::{Reason, Refused, Shortness};
 use crate::semantics::planning::InitialFact;
 use crate::strips::{Preference, Replayed, Said, Wording};
+use crate::units::Fault as _;
 
 #[derive(Debug, Serialize)]
 struct StepView {
@@ -173,7 +174,7 @@ pub(crate) fn replayed(replayed: &Replayed) -> Value {
                 json!({
                     "code": code,
                     "message": fault.error.to_string(),
-                    "message_en": fault.error.english(),
+                    "message_en": fault.error.tell(Language::English),
                     "line": place.map(|(_, line, _)| line),
                     "column": place.map(|(_, _, column)| column),
                 })

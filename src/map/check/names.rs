@@ -58,7 +58,12 @@ impl Checker<'_> {
     fn borne_twice(&mut self, name: &str, first: Entity, second: Entity) {
         let world = self.world;
         let [one, other] = [first, second].map(|entity| title(world, entity));
-        let error = MapError::DuplicateName { name: name.to_owned(), first: one, second: other };
+        let error = MapError::DuplicateName {
+            name: name.to_owned(),
+            other: format!("{}-2", name.trim()),
+            first: one,
+            second: other,
+        };
         self.contradiction(error, spot(second, world, name), spot(first, world, name));
     }
 
@@ -101,6 +106,7 @@ impl Checker<'_> {
                 };
                 let error = MapError::DuplicateName {
                     name: entry.name.clone(),
+                    other: format!("{}-2", entry.name.trim()),
                     first: words(first),
                     second: words(entry.id),
                 };

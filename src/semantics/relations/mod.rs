@@ -24,7 +24,6 @@ use crate::geometry::Openings;
 
 pub use follow::Followed;
 use rows::{Load, note, tuple};
-pub(crate) use rules::MAX_FILE_BYTES;
 pub use rules::{RelationError, RelationRules, STANDARD};
 
 /// With more pairs than this, what updates need is prepared beforehand: deriving takes longer than that anyway.

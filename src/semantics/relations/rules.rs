@@ -2,9 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use crate::facts::{EvaluateError, FactError, Faults, Program, RuleError};
 use crate::map::{LeastSizes, Profile, Tolerances};
 use crate::measure::Reach;
@@ -18,58 +15,38 @@ pub static STANDARD: Carried = carried!("../../../rules/relations.dl");
 pub(crate) const MAX_FILE_BYTES: u64 = 16 << 20;
 
 /// Why there are no relations.
-#[derive(Debug, Error, Diagnostic)]
+#[derive(Debug, crate::units::Fault)]
+#[fault(semantics)]
 #[non_exhaustive]
 pub enum RelationError {
     /// The file of rules could not be read.
-    #[error("не удалось прочесть файл правил «{path}»: {message}")]
-    #[diagnostic(
-        code(semantics::unreadable),
-        help("проверьте путь и права доступа; файл должен быть в UTF-8")
-    )]
     Unreadable { path: String, message: Bilingual },
+
     /// Longer than what a person writes.
-    #[error("файл правил «{path}» слишком велик: {bytes} байт, предел {MAX_FILE_BYTES}")]
-    #[diagnostic(
-        code(semantics::too_large),
-        help("правила – это текст, написанный человеком; проверьте, тот ли это файл")
-    )]
-    TooLarge { path: String, bytes: u64 },
+    TooLarge { path: String, bytes: u64, limit: u64 },
+
     /// Nothing but white space.
-    #[error("файл правил «{path}» пуст")]
-    #[diagnostic(
-        code(semantics::empty),
-        help("уберите его, и будут действовать правила, которые есть в самой программе")
-    )]
     Empty { path: String },
+
     /// The rule text is at fault.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Rules(#[from] Faults),
+
     /// The rule text declares a measured relation otherwise than it is measured.
-    #[error("{fault}")]
-    #[diagnostic(
-        code(semantics::schema),
-        help(
-            "измеряемые отношения объявлены в rules/relations.dl, раздел «Измерения»; их столбцы менять нельзя"
-        )
-    )]
     Schema { fault: FactError },
+
     /// Thresholds of the rule text that cannot be meant.
-    #[error("{}", .faults.first().map(ToString::to_string).unwrap_or_default())]
-    #[diagnostic(code(semantics::thresholds))]
     Thresholds {
+        first: Bilingual,
         #[related]
         faults: Vec<ThresholdFault>,
     },
+
     /// Evaluation does not end within its limits.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Evaluate(#[from] EvaluateError),
+
     /// A name that no relation bears.
-    #[error("нет отношения «{name}»")]
-    #[diagnostic(code(semantics::unknown_relation), help("{}", nearest.as_ref().map_or_else(
-        || "имена отношений стоят в rules/relations.dl".to_owned(), |n| format!("может быть, «{n}»?"))))]
     UnknownRelation { name: String, nearest: Option<String> },
 }
 
@@ -125,7 +102,8 @@ impl RelationRules {
         let (texts, program) = declared(texts)?;
         let faults = thresholds::faults(&program);
         if !faults.is_empty() {
-            return Err(RelationError::Thresholds { faults });
+            let first = faults.first().map_or_else(|| "".into(), |fault| fault.message.clone());
+            return Err(RelationError::Thresholds { first, faults });
         }
         let program = completed(&texts, program);
         let empty = program.evaluate(&program.database())?;
@@ -300,7 +278,9 @@ fn section(heading: &str) -> Option<&'static str> {
 fn text_of(path: &Path) -> Result<Source, RelationError> {
     let name = || path.to_string_lossy().into_owned();
     let source = Source::read_within(path, MAX_FILE_BYTES).map_err(|fault| match fault {
-        FileFault::TooLarge { bytes, .. } => RelationError::TooLarge { path: name(), bytes },
+        FileFault::TooLarge { bytes, limit } => {
+            RelationError::TooLarge { path: name(), bytes, limit }
+        }
         other => RelationError::Unreadable { path: name(), message: (&other).into() },
     })?;
     if source.text().trim().is_empty() {

@@ -10,10 +10,7 @@ mod file;
 use imageproc::contours::find_contours_with_threshold;
 use imageproc::contrast::otsu_level;
 use imageproc::image::GrayImage;
-use miette::Diagnostic;
 use nalgebra::Vector2;
-use orthoframe_units::InEnglish;
-use thiserror::Error;
 
 use crate::polyline::{Course, polyline};
 use crate::segment::{Cut, End, Segment};
@@ -26,39 +23,17 @@ const FEWEST: usize = 12;
 const LARGEST: u32 = 16_384;
 
 /// What no picture can be.
-#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, Eq, orthoframe_units::Fault)]
+#[fault(vectors)]
 #[non_exhaustive]
 pub enum PictureError {
     /// Its sides and the number of its pixels disagree, or a side is too long.
-    #[error("картинка {width}×{height} не складывается из {pixels} точек")]
-    #[diagnostic(
-        code(vectors::picture_size),
-        help("точек должно быть ширина × высота, сторона не длиннее 16384")
-    )]
+    #[fault(code = "vectors::picture_size")]
     Size { width: u32, height: u32, pixels: usize },
+
     /// The file is no PNG, or is damaged.
-    #[error("картинка не читается: {reason}")]
-    #[diagnostic(code(vectors::picture_file), help("нужен целый файл PNG"))]
+    #[fault(code = "vectors::picture_file")]
     Unreadable { reason: String },
-}
-
-impl InEnglish for PictureError {
-    fn english(&self) -> String {
-        match self {
-            Self::Size { width, height, pixels } => {
-                format!("a picture of {width}×{height} is not made of {pixels} points")
-            }
-            Self::Unreadable { reason } => format!("the picture cannot be read: {reason}"),
-        }
-    }
-
-    fn english_help(&self) -> Option<String> {
-        let help = match self {
-            Self::Size { .. } => "the points are width × height, and no side is longer than 16384",
-            Self::Unreadable { .. } => "a whole PNG file is needed",
-        };
-        Some(help.to_owned())
-    }
 }
 
 /// Grey values, row by row from the top.

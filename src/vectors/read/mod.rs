@@ -5,7 +5,6 @@
 mod breezy;
 mod carmen;
 mod csv;
-mod english;
 mod fault;
 mod noise;
 mod words;

@@ -1,10 +1,6 @@
 //! A range sensor: where its beams point, how far they reach, and how much they err.
 
-use miette::Diagnostic;
 use nalgebra::Vector2;
-use thiserror::Error;
-
-use orthoframe_units::{Language, Lengths};
 
 /// No sensor of this kind reaches farther, in cm: beyond it sums of squares lose what noise tells.
 const FARTHEST: f64 = 100_000.0;
@@ -13,28 +9,21 @@ const MOST_BEAMS: usize = 1 << 16;
 /// Least angle, in rad, at which a face is still expected to be seen; more oblique ones tear and are merged again.
 const OBLIQUE: f64 = 0.175;
 
-fn told(cm: f64) -> String {
-    Lengths::said().told(cm, 2, Language::Russian)
-}
-
 /// What a sensor cannot be.
-#[derive(Debug, Clone, Copy, PartialEq, Error, Diagnostic)]
+#[derive(Debug, Clone, Copy, PartialEq, orthoframe_units::Fault)]
+#[fault(vectors)]
 #[non_exhaustive]
 pub enum SensorError {
     /// Angles or the number of beams make no field of view.
-    #[error("{count} лучей через {step} рад от {first} рад – это не поле зрения")]
-    #[diagnostic(
-        code(vectors::sensor_field),
-        help("шаг больше нуля, лучей от 0 до 65536, вместе не больше полного оборота")
-    )]
+    #[fault(code = "vectors::sensor_field")]
     Field { first: f64, step: f64, count: usize },
+
     /// Nearest and farthest range make no interval.
-    #[error("дальность от {} до {} невозможна", told(*nearest), told(*farthest))]
-    #[diagnostic(code(vectors::sensor_reach), help("0 ≤ ближняя < дальняя ≤ 100 000 см"))]
+    #[fault(code = "vectors::sensor_reach")]
     Reach { nearest: f64, farthest: f64 },
+
     /// A deviation is no positive number.
-    #[error("погрешность {0} невозможна")]
-    #[diagnostic(code(vectors::sensor_noise), help("дальность: больше 0 см; доля и угол: от 0"))]
+    #[fault(code = "vectors::sensor_noise")]
     Noise(f64),
 }
 

@@ -1,0 +1,81 @@
+# Что не так с описанием коридоров и с вопросами о пути.
+
+corridor-file = описание коридоров не принято, ошибок: { $count }
+corridor-file-help = исправьте отмеченные места
+
+corridor-unknown-room = неизвестное помещение «{ $room }»: в коридоры не выходит вход с таким именем
+    .help = { $hint }
+corridor-unknown-vertex = вершины { $vertex } в системе коридоров нет
+    .help = вершины нумеруются так: { $known }
+corridor-several-entrances = у помещения «{ $room }» несколько входов: вершины { $vertices }
+    .help = укажите вершину (например, #{ $example }) или последнюю пройденную дугу
+corridor-unknown-arc = дуги ({ $from }, { $to }) в графе нет
+    .help = последняя дуга ведёт в вершину { $to } из соседней с ней: { $neighbours }
+corridor-last-arc-elsewhere = робот не может стоять в вершине { $vertex }, если последней пройдена дуга ({ $from }, { $to })
+    .help = последняя дуга должна вести в вершину { $vertex }; если курс неизвестен, не указывайте её
+corridor-unreachable = из «{ $from }» нельзя проехать по коридорам в «{ $to }»
+    .help = { $hint }
+corridor-at-junction = вершина { $vertex } – соединение коридоров: во втором варианте графа такой вершины нет
+    .help = начните от входа или возьмите первый вариант
+corridor-heading-needed = вершина { $vertex } – соединение коридоров: без курса не сказать, куда повернуть
+    .help = укажите последнюю пройденную дугу
+corridor-goal-is-junction = цель – вершина { $vertex }, а это соединение коридоров, не вход
+    .help = назовите помещение или вершину входа
+corridor-no-length = длина участка ({ $from }, { $to }) неизвестна, а путь надо мерить в метрах
+    .help = укажите metres у всех участков или measure = "arcs"
+corridor-unknown-map = карты с номером { $map } в мире нет
+corridor-no-corridors = на карте «{ $name }» нет коридоров
+    .help = дайте коридорам тип помещения с признаком corridor, например «Коридор»
+
+corridor-syntax = текст не читается как TOML: { $message }
+    .help = образец: maps/corridor-paper4.toml
+corridor-notation = это не файл коридоров: текст начинается как JSON, а файл коридоров – TOML
+    .help = образец: maps/corridor-paper4.toml; по карте ходят так: ortho corridor --map ФАЙЛ
+corridor-unknown-field = неизвестное поле «{ $field }»
+    .help = { $hint }
+    .at = это поле
+corridor-missing-field = не хватает поля «{ $field }»
+    .help = { $hint }
+corridor-wrong-value = поле «{ $field }»: нужно { $expected }
+    .help = исправьте значение
+    .at = это значение
+corridor-unknown-format = формат { $found } неизвестен
+    .help = эта версия программы читает format = 1
+    .at = этот номер
+corridor-empty = в описании нет ни одного коридора
+    .help = добавьте [[corridor]] со списком along
+corridor-room-and-junction = вершина { $vertex } – и вход, и соединение коридоров
+    .help = оставьте room с side или junction; у разных мест – разные номера вершин
+corridor-repeated-entrance = вход { $vertex } уже стоит в другом месте
+    .help = каждый вход описывается один раз; общей у двух коридоров бывает только вершина соединения
+    .at = второй раз здесь
+    .first = первый раз здесь
+corridor-undeclared-vertex = у вершины { $vertex } нигде не сказано, вход это или какое соединение коридоров
+    .help = укажите room и side (вход) или junction (вид соединения) хотя бы в одном коридоре
+corridor-vertex-meets-itself = вершина { $vertex } стоит в списке дважды подряд
+    .help = уберите повторение; кольцо замыкает closed = true
+    .at = второй раз здесь
+corridor-ahead-not-at-end = дверь вершины { $vertex } стоит прямо (ahead), но коридор за ней продолжается
+    .help = прямо бывает только дверь в торце тупика: первая или последняя в списке
+    .at = эта сторона
+corridor-junction-without-approach = к соединению { $vertex } не ведёт ни один участок этого коридора
+    .help = вид соединения описывается так, как его видно с этого коридора: добавьте соседнюю вершину
+corridor-no-such-way = соединение { $vertex }: вид «{ $kind }» не имеет пути { $way }
+    .help = пути этого вида: { $ways }
+    .at = этот путь
+corridor-no-such-neighbour = соединение { $vertex }: соседа { $neighbour } у него нет или к нему ведут несколько коридоров
+    .help = соседи по описанию: { $neighbours }
+    .at = этот сосед
+corridor-arms-disagree = соединение { $vertex }: вид «{ $kind }» требует коридоров: { $wanted }, а описано: { $found } (соседи { $neighbours })
+    .help = исправьте вид, допишите коридор или отметьте пустой путь: blind = ["right"]
+    .at = этот вид
+corridor-ambiguous-arms = соединение { $vertex }: не ясно, какой коридор куда ведёт (соседи { $neighbours })
+    .help = назовите соседей, как их видно с этого коридора: straight = …, right = …, left = …
+    .at = это соединение
+corridor-junction-disagrees = соединение { $vertex }: здесь сказано «{ $said }», а по описанию другого коридора отсюда видно «{ $seen }»
+    .help = одно и то же соединение с разных сторон выглядит по-разному; исправьте одно из описаний
+    .at = это описание
+    .first = другое описание
+corridor-way-disagrees = соединение { $vertex }: путь { $way } ведёт отсюда к «{ $said }», а по описанию другого коридора – к «{ $seen }»
+    .help = исправьте одно из описаний
+    .at = этот путь

@@ -1,0 +1,116 @@
+# Что не так с файлом правил, сценарием, файлом PDDL или планом.
+
+strips-faults = найдено ошибок: { $count }
+strips-denied = НЕ { $fact }
+strips-no-such-file = такого файла нет
+strips-no-permission = нет прав на чтение
+
+strips-unreadable = файл «{ $path }» не читается: { $reason }
+    .help = проверьте путь и права доступа
+strips-not-text = файл «{ $path }» – не текст в UTF-8: байт { $offset } не читается
+    .help = сохраните файл как текст в кодировке UTF-8
+strips-too-large = файл «{ $path }» слишком велик: { $bytes } байт, предел { $limit }
+    .help = разделите файл на части и включите их: «Включить: часть.strips»
+strips-empty = файл «{ $path }» пуст
+    .help = файл правил состоит из разделов «Действие: …», сценарий – из «Исходная позиция: …», «Целевая позиция: …»
+strips-unexpected-character = непонятный знак «{ $sign }»
+    .help = имена с такими знаками берут в кавычки: «имя»
+strips-syntax = ожидается { $expected }, а стоит { $found }
+strips-unknown-heading = неизвестный раздел «{ $heading }»
+strips-missing-parenthesis = скобка не закрыта
+    .help = поставьте «)» перед следующим разделом
+    .at = открыта здесь
+strips-surplus-parenthesis = лишняя закрывающая скобка
+    .help = её можно убрать
+strips-too-deep = скобки вложены глубже { $limit } уровней
+    .help = упростите выражение
+strips-unsupported = «{ $what }» не поддерживается
+strips-requirement = требование «{ $name }» шире того, что читается
+    .help = читаются :strips :typing :negative-preconditions :equality :action-costs; что сверх того, будет названо там, где стоит
+strips-early-end = «(define …)» здесь закрыто, а дальше стоит { $next }
+    .help = уберите лишнюю «)» здесь или раньше
+    .at = закрыто здесь
+strips-not-assumed = такого предположения нет: { $fact }{ $is_fact ->
+        [yes] {" "}(это факт)
+       *[no] {""}
+    }
+strips-not-believed = карта и робот этого не знают: { $fact }
+strips-not-driven = этого робот исполнить не может: { $fact }
+strips-unknown-type = неизвестный тип «{ $name }»
+strips-type-cycle = тип «{ $name }» наследует сам себе
+    .help = разорвите круг наследования в разделе «Типы»
+strips-unknown-predicate = неизвестный предикат «{ $name }»
+strips-lonely-predicate = предикат «{ $name }» встречается только в действии «{ $action }» – не описка ли это?
+strips-lonely-type = тип «{ $name }» не объявлен – не описка ли это?
+strips-unknown-function = неизвестная функция «{ $name }»
+strips-other-domain = задача относится к области «{ $wanted }», а прочитана область «{ $found }»
+    .help = проверьте, те ли файлы названы в --domain и --problem
+strips-metric = критерий «{ $metric }» не учитывается
+    .help = учитывается (:metric minimize (total-cost)), также (+ (* 3 (is-violated имя)) …); без него план – с наименьшим числом шагов
+strips-unknown-preference = неизвестное желание «{ $name }»
+strips-arity = «{ $name }»: аргументов { $expected }, а дано { $found }
+strips-undeclared-variable = действие «{ $action }»: переменная «{ $variable }» не объявлена
+strips-variable-in-fact = переменная «{ $variable }» вне действия
+    .help = в фактах и целях стоят имена объектов
+strips-duplicate = { $what } «{ $name }»: второе объявление
+    .at = второй раз – здесь
+    .first = первый раз – здесь
+strips-second-name-of-action = «{ $name }» – действие: второе имя бывает у предикатов и типов
+    .help = уберите второе имя; слова в кавычках останутся
+    .at = второе имя
+strips-object-twice = объект «{ $name }» объявлен дважды: здесь – «{ $found }», а раньше – «{ $earlier }»
+    .at = второй раз – здесь
+    .first = первый раз – здесь
+strips-phrase-variable = в словах стоит «{ $variable }», а среди аргументов её нет
+strips-contradictory-effect = действие «{ $action }»: эффект противоречит сам себе: «{ $atom }» и прибавляется, и убирается
+    .help = оставьте факт в одном из «Эффект+», «Эффект-»
+    .at = убирается здесь
+strips-contradictory-precondition = действие «{ $action }»: предусловие противоречит само себе: «{ $atom }» и требуется, и запрещается
+    .help = уберите одно из двух
+    .at = запрещается здесь
+strips-argument-type = «{ $name }»: { $number }-й аргумент должен быть типа «{ $expected }», а «{ $term }» – типа «{ $found }»
+strips-variable-type = переменная «{ $variable }» объявлена как «{ $declared }», а здесь названа «{ $found }»
+    .help = назовите тип так же, как в «Параметры»
+strips-unknown-object = неизвестный объект «{ $name }»
+strips-object-type = объект «{ $name }» здесь типа «{ $found }», а в другом месте – «{ $earlier }»
+    .help = объявите тип объекта в разделе «Объекты» или исправьте факт
+strips-contradictory-fact = «{ $atom }» и утверждается, и отрицается
+    .help = оставьте одно из двух
+    .at = отрицается здесь
+strips-include-cycle = файл включает сам себя
+    .help = уберите это включение
+strips-include = файл «{ $path }» не включается: { $reason }
+    .help = путь отсчитывается от файла, в котором стоит «Включить»
+strips-cost = «{ $text }» – не стоимость
+    .help = стоимость – число от 0 до 1000000, не больше трёх знаков после точки
+strips-no-goal = у сценария нет цели
+    .help = добавьте раздел «Целевая позиция: …», в PDDL – «(:goal …)»
+strips-no-actions = нет ни одного действия
+    .help = включите файл правил: «Включить: ../service-robot.strips»
+strips-unknown-action = неизвестное действие «{ $name }»
+strips-wrong-object = «{ $name }» не подходит: здесь должен стоять объект типа «{ $expected }»
+strips-plan-precondition = действие невыполнимо: не выполнено { $fact }
+    .at = здесь план обрывается
+strips-plan-interference = действия одного шага мешают друг другу: из-за { $fact } нельзя вместе с «{ $other }»
+    .help = разнесите их по разным шагам
+    .at = здесь план обрывается
+strips-plan-misses-goal = в конце не выполнена цель { $fact }
+strips-too-many-operators = действия правил над этими объектами не помещаются в { $megabytes } МиБ памяти
+    .help = добавьте правилам предусловий, связывающих их параметры, или уменьшите число объектов
+strips-too-many-cases = условия в «{ $of }» распадаются больше чем на { $limit } случаев
+    .help = разделите действие на несколько или уменьшите число объектов под «для всех» и «если»
+strips-durations = действия с длительностью планируются целиком, одно за другим; шаги считаются по ним самим, длительность – стоимость
+    .help = план, которому нужно, чтобы одно шло внутри другого, так не находится
+    .at = первое такое действие
+strips-lasting-condition = пока действие длится, нужны простые факты: своё начало задевает то, о чём спрашивает условие
+    .help = разделите условие на факты, или спросите его в начале
+strips-derived-stated = предикат «{ $name }» выводится правилом, поэтому его нельзя ни утверждать, ни менять действием
+    .help = уберите это или правило вывода
+strips-derived-by-absence = «{ $name }» выводится из того, что «{ $name }» не выводится
+    .help = разорвите круг: отрицание под правилом вывода не должно вести к нему же
+    .at = это правило
+strips-no-price = задача не говорит, сколько стоит { $action }{ $more ->
+        [0] {""}
+       *[other] {" "}(и ещё действий: { $more })
+    }: это считается бесплатным
+    .help = задайте значение в «:init»: (= (функция объект …) число)
