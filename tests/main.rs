@@ -65,6 +65,7 @@ mod names_with_verbs;
 mod not_known;
 mod odd_floors;
 mod odd_worlds;
+mod of_those_told;
 mod one_tongue;
 mod openings;
 mod orders;

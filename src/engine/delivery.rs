@@ -11,6 +11,69 @@ use super::error::{both, in_both};
 use super::{Error, Method, RequestError, State};
 
 impl State {
+    /// Whether a thing is taken up before it is put where it lies: what lies on top, before it is put in, since to the rules
+    /// "on" is both; and what is behind a door, before it is put on top.
+    pub(super) fn is_lifted(
+        &self,
+        thing: Entity,
+        to: &Placement<Entity>,
+        relations: &Relations,
+    ) -> bool {
+        let (Entity::Replica(thing), Entity::Replica(holder)) = (thing, to.anchor) else {
+            return false;
+        };
+        let is_inside = || relations.is_inside(thing, holder);
+        match to.relation {
+            Relation::In => relations.support_of(thing) == Some(holder) && !is_inside(),
+            Relation::On => is_inside() && self.has_doors(holder),
+            _ => false,
+        }
+    }
+
+    /// What is to be put where it lies already, and is left there: told, where others are put there, or where it lies inside
+    /// and was to be put on top.
+    pub(super) fn lying_there(
+        &self,
+        commands: &[Command<Entity>],
+        relations: &Relations,
+    ) -> Result<Vec<String>, Error> {
+        let world = self.world()?;
+        let replica = |entity| match entity {
+            Entity::Replica(id) => Some(id),
+            _ => None,
+        };
+        let put: Vec<(usize, ReplicaId, &Placement<Entity>)> = commands
+            .iter()
+            .enumerate()
+            .filter_map(|(n, command)| match command {
+                Command::Put { what, to } | Command::Bring { what, to: Some(to) } => {
+                    replica(what.id).map(|thing| (n, thing, to))
+                }
+                _ => None,
+            })
+            .collect();
+        let lies = |(n, thing, to): &(usize, ReplicaId, &Placement<Entity>)| {
+            let id = Entity::Replica(*thing);
+            let moved = commands[..*n].iter().any(|command| command.places(&id));
+            let there = match to.anchor {
+                Entity::Replica(holder) => {
+                    to.relation != Relation::NextTo
+                        && (relations.support_of(*thing) == Some(holder)
+                            || relations.is_inside(*thing, holder))
+                }
+                Entity::Area(area) => relations.area_of(*thing) == Some(area),
+                _ => false,
+            };
+            there && !moved && !self.is_lifted(id, to, relations)
+        };
+        let (lying, going): (Vec<_>, Vec<_>) = put.into_iter().partition(lies);
+        let within = |(_, thing, to): &(usize, ReplicaId, &Placement<Entity>)| {
+            to.relation == Relation::On
+                && replica(to.anchor).is_some_and(|holder| relations.is_inside(*thing, holder))
+        };
+        let told = lying.iter().filter(|one| !going.is_empty() || within(one));
+        Ok(told.map(|(_, thing, _)| world.name(Entity::Replica(*thing)).to_owned()).collect())
+    }
     /// The name of a thing that the robot can carry.
     ///
     /// # Errors

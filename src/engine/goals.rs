@@ -162,18 +162,7 @@ impl State {
                     belief.beside.insert((name(what.id), name(to.anchor)));
                 }
                 let delivered = self.delivered(what.id, to, relations)?;
-                // What lies on top of it is taken down before it is put in: to the rules, "on" is both.
-                let lifted = match (to.relation, what.id, to.anchor) {
-                    (Relation::In, Entity::Replica(thing), Entity::Replica(holder)) => {
-                        relations.support_of(thing) == Some(holder)
-                            && !relations.is_inside(thing, holder)
-                    }
-                    // … and what is behind its door is taken out before it is put on top.
-                    (Relation::On, Entity::Replica(thing), Entity::Replica(holder)) => {
-                        relations.is_inside(thing, holder) && self.has_doors(holder)
-                    }
-                    _ => false,
-                };
+                let lifted = self.is_lifted(what.id, to, relations);
                 let held = lifted.then(|| vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]);
                 held.into_iter().chain([delivered]).collect()
             }

@@ -242,7 +242,9 @@ impl State {
             }
         }
         let mut told = vec![ending(self.world()?, answer, language)];
-        let places = self.places_found(answer, language)?;
+        let goals = answer.goal.iter().filter(|goal| goal.predicate == predicate::FOUND);
+        let found = goals.flat_map(|goal| goal.args.first());
+        let places = self.places_of(found, language)?;
         // That a thing is found already says nothing more than where it is.
         let finds = answer.goal.iter().all(|goal| goal.predicate == predicate::FOUND);
         let is_so = matches!(answer.ending, TaskEnding::AlreadyTrue) && answer.left.is_empty();
@@ -250,14 +252,27 @@ impl State {
             told.clear();
         }
         told.extend(places);
-        Ok(told.join(" "))
+        let mut told = told.join(" ");
+        let left = language.pick("Оставлено на месте", "Left where it is");
+        let lying = self.places_of(answer.lying.iter(), language)?;
+        // That it is so would be untrue of what lies inside and was to be put on top.
+        if is_so && !lying.is_empty() {
+            told.clear();
+        }
+        for place in lying {
+            told = format!("{told}\n{left}: {place}").trim_start().to_owned();
+        }
+        Ok(told)
     }
 
-    /// Who asks to find a thing wants to know where it is.
-    fn places_found(&self, answer: &TaskAnswer, language: Language) -> Result<Vec<String>, Error> {
-        let goals = answer.goal.iter().filter(|goal| goal.predicate == predicate::FOUND);
+    /// Who asks to find a thing wants to know where it is, and so does who had it put where it lies.
+    fn places_of<'n>(
+        &self,
+        names: impl Iterator<Item = &'n String>,
+        language: Language,
+    ) -> Result<Vec<String>, Error> {
         let mut places = Vec::new();
-        for name in goals.flat_map(|goal| goal.args.first()) {
+        for name in names {
             let shown = name_in(self.world()?, name, language);
             let question = match language {
                 Language::Russian => format!("Где {name}?"),

@@ -199,6 +199,16 @@ impl State {
         Ok(self.asker(&senses)?.corrected(line, memory))
     }
 
+    /// An order with the names of what it only points at: see [`Asker::with_pointed`].
+    pub(super) fn with_pointed(
+        &self,
+        line: &str,
+        memory: &Memory,
+    ) -> Result<Result<Option<String>, Box<Unanswered>>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.with_pointed(line, memory))
+    }
+
     /// Notes that an order came to nothing yet, as [`Asker::leave_open`].
     pub(super) fn leave_open(&self, order: &str, memory: &mut Memory) -> Result<(), Error> {
         let senses = RobotSenses { engine: self };

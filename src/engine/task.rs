@@ -123,6 +123,8 @@ pub struct TaskAnswer {
     pub strays: Vec<String>,
     /// What was to be put away and lies where it is kept, by name, with that.
     pub kept: Vec<(String, String)>,
+    /// What was to be put where it lies already, while others were put there, or into what it lies on, by name: it was left there.
+    pub lying: Vec<String>,
     /// Whether the same was asked of several things, and done of those that are not told of as left.
     pub others_done: bool,
     /// What the sentence asked for beside, and was not begun, since what was asked for before it came to nothing.
@@ -393,6 +395,7 @@ impl State {
         if let Err(failure) = self.seek(sought, relations, &mut belief, vehicle)? {
             return self.not_begun(failure);
         }
+        let lying = self.lying_there(&commands, relations)?;
         let tidying = |c: &Command<_>| {
             matches!(c, Command::Tidy(_) | Command::Clear { .. } | Command::Clean(_))
         };
@@ -402,6 +405,7 @@ impl State {
         let each = asks_of_each(&commands);
         let errand = Errand { domain, belief, relations: followed, goals, tidies, each };
         let mut answer = self.drive(errand, vehicle, tell, stop)?;
+        answer.lying = lying;
         (answer.strays, answer.kept) = (staying.strays, staying.kept);
         let must_report = matches!(answer.ending, TaskEnding::Stopped)
             || (answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
@@ -572,6 +576,7 @@ impl State {
             ending,
             left,
             strays: Vec::new(),
+            lying: Vec::new(),
             kept: Vec::new(),
             others_done,
             not_begun: each_once(&goals).split_off(each_once(&goals[..begun]).len()),
@@ -654,6 +659,7 @@ impl State {
             ending: TaskEnding::Failed(failure),
             left: Vec::new(),
             strays: Vec::new(),
+            lying: Vec::new(),
             kept: Vec::new(),
             others_done: false,
             not_begun: Vec::new(),

@@ -23,6 +23,7 @@
 
 mod command;
 mod heard;
+mod offered;
 mod order;
 mod substitute;
 mod waiting;
@@ -37,7 +38,7 @@ use crate::language::command::{
 };
 use crate::language::question::{
     Aside, Conditional, Corrected, Doubt, Memory, Unanswered, aside, asks_whether, begs, behind_no,
-    conditional, hinged, sentences, unaddressed,
+    conditional, hinged, sentences, unaddressed, unbegged,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -273,7 +274,8 @@ impl Hearing<'_, '_> {
             Some(Corrected::Unclear(_)) => return self.command(line, false),
             None => {}
         }
-        let line = &*unaddressed(line);
+        let line = unbegged(&unaddressed(line)).to_owned();
+        let line = &*line;
         let said = aside(line);
         if said == Some(Aside::End) {
             return self.put(Outcome::Ended, "", self.dialogue.language);
@@ -311,6 +313,15 @@ impl Hearing<'_, '_> {
         {
             return Ok(());
         }
+        if has_verb(line) && !line.contains('?') {
+            match self.engine.with_pointed(line, &self.dialogue.memory)? {
+                Ok(None) => {}
+                Ok(Some(named)) => return self.hear(&named),
+                Err(unanswered) => {
+                    return self.refuse(Misheard::NoneSuch(unanswered).into(), language);
+                }
+            }
+        }
         if let Some(whole) = self.engine.resumed(line, &self.dialogue.memory)? {
             return self.obey(&whole, awaited);
         }
@@ -327,6 +338,9 @@ impl Hearing<'_, '_> {
                 "I asked nothing. Ask or command.",
             );
             return self.put(Outcome::NothingOffered, text, language);
+        }
+        if self.headed(line)? {
+            return Ok(());
         }
         if let Some(line) =
             in_time(line, &self.engine.rules.paraphrases()).filter(|line| is_order(line))
@@ -410,27 +424,6 @@ impl Hearing<'_, '_> {
             Some(also) => self.hear(also),
             None => Ok(()),
         }
-    }
-
-    /// "If there is a banana, bring it, otherwise bring an apple": that the map has none is no proof that there is none, so
-    /// that the other order waits for a yes.
-    fn condition_unknown(
-        &mut self,
-        conditional: &Conditional,
-        unanswered: Unanswered,
-    ) -> Result<(), Error> {
-        let lacks = unanswered.doubt.kind() == "unknown" && unanswered.names.is_empty();
-        let lacks = lacks && !conditional.waits && !conditional.denies();
-        let Some(order) = conditional.otherwise.clone().filter(|_| lacks) else {
-            return self.reply(Reply::unanswered(unanswered));
-        };
-        let (told, language) = (unanswered.text, unanswered.language);
-        let text = match language {
-            Language::Russian => format!("{told} Выполнить: «{order}»?"),
-            Language::English => format!("{told} Shall I do this: \"{order}\"?"),
-        };
-        self.dialogue.offered = Some(order.clone());
-        self.put(Outcome::Offered { order }, &text, language)
     }
 
     fn hear_one(&mut self, line: &str, awaited: bool) -> Result<(), Error> {

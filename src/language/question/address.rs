@@ -16,7 +16,7 @@ use super::query::Courtesy;
 use super::several::{self, is_tag};
 use super::vocabulary;
 use crate::command::is_order;
-use crate::sets::set;
+use crate::sets::{Set, set};
 use crate::words::{is_first_person, phrase_at, word_keys, word_ranges};
 
 /// A line without the words by which somebody is spoken to, and without particles of speech.
@@ -154,6 +154,20 @@ pub(super) fn untagged(line: &str) -> Cow<'_, str> {
     }
     let ends = [&line[..first]].into_iter().chain(kept).chain([&line[last + 1..]]);
     Cow::Owned(ends.collect::<Vec<_>>().join(","))
+}
+
+/// An order without the "would you?" at its end, which asks nothing.
+#[must_use]
+pub fn unbegged(line: &str) -> &str {
+    static BEGGING: Set = Set::named("BeggingTag");
+    match line.rsplit_once(COMMAS[0]) {
+        Some((order, tag))
+            if BEGGING.contains(&word_keys(tag).join(" ").as_str()) && is_order(order) =>
+        {
+            order
+        }
+        _ => line,
+    }
 }
 
 /// What parts an address from the rest of a line.

@@ -167,7 +167,7 @@ impl Asker<'_> {
 
     /// The other things of the kind of the last one: of several that were just listed, those that were not spoken of
     /// before. While it is asked back which is meant there is no one beside which others are.
-    fn others_of_last(&self, memory: &Memory) -> Option<Noun> {
+    pub(super) fn others_of_last(&self, memory: &Memory) -> Option<Noun> {
         if memory.pending.is_some() {
             return None;
         }

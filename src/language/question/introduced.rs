@@ -2,13 +2,40 @@
 //!
 //! Invariant: whether the map has such a thing is asked elsewhere.
 
-use super::grammar::{Item, Sentence};
+use super::doubt::Doubt;
+use super::grammar::{Item, Phrase, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{Asker, purposes};
 use crate::sets::set;
-use crate::words::{everyday as everyday_words, word_keys};
+use crate::words::{everyday as everyday_words, word_keys, word_ranges};
 
 impl Asker<'_> {
+    /// "The left consult room 3", of which "the left consult" is not understood: whether the words that are not stand right
+    /// before a name that has a number, so that another is meant than the one that is called so.
+    pub(super) fn cuts_name(&self, text: &str, doubt: &Doubt) -> bool {
+        let (Doubt::NotUnderstood { words } | Doubt::Unknown { reference: words, .. }) = doubt
+        else {
+            return false;
+        };
+        let Some(at) = text.find(words.as_str()).filter(|_| words.len() < text.trim().len()) else {
+            return false;
+        };
+        let end = at + words.len();
+        let next = word_ranges(text).iter().position(|word| word.start > end);
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let follows = |phrase: &Phrase| {
+            let numbered = phrase.words.clone().any(|n| sentence.keys[n].parse::<u32>().is_ok());
+            Some(phrase.words.start) == next && (numbered || !phrase.noun.head.named.is_empty())
+        };
+        let joined = text[end..].starts_with(' ');
+        joined
+            && sentence.items().iter().any(|item| match item {
+                Item::Noun(phrase) => follows(phrase),
+                Item::Place { nouns, .. } => nouns.iter().any(follows),
+                _ => false,
+            })
+    }
+
     /// Whether something here knows what a name means, whatever the map has: a sort of things, the word list, or the map
     /// itself for a name with a number of its own ("cup 5").
     pub(super) fn is_word(&self, name: &str) -> bool {

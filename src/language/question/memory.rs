@@ -32,6 +32,8 @@ pub struct Memory {
     pub(super) last: Vec<Thing>,
     /// The last several things that an answer told, in its order: «вторую» counts them.
     pub(super) listed: Vec<Thing>,
+    /// What orders took of them since.
+    pub(super) taken: Taken,
     pub(super) facts: Vec<Fact>,
     /// Whether what was asked last is so.
     pub(super) so: Option<bool>,
@@ -71,6 +73,25 @@ pub struct Memory {
     pub(super) departed: Vec<Departed>,
     /// Whether the map has changed since the last answer.
     pub(super) is_outdated: bool,
+}
+
+/// What orders took of a list, one after the other, and not by its number there.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Taken {
+    list: Vec<Thing>,
+    things: Vec<Thing>,
+    /// Each was any of those that were left.
+    is_any: bool,
+}
+
+impl Taken {
+    /// What was taken of this list; of another, nothing.
+    fn of(&self, list: &[Thing]) -> &[Thing] {
+        match self.list == list {
+            true => &self.things,
+            false => &[],
+        }
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -249,6 +270,7 @@ impl Memory {
         }
         if self.last.len() > 1 {
             self.listed.clone_from(&self.last);
+            self.taken = Taken::default();
         }
         for thing in answer.topic.iter().rev() {
             self.spoken.retain(|t| t != thing);
@@ -266,7 +288,12 @@ impl Memory {
         let own = places.iter().rev().filter(|place| !things.contains(place));
         match self.exchanges.first_mut().filter(|_| !things.is_empty()) {
             Some(exchange) => {
-                exchange.topics.extend(own);
+                for place in own {
+                    // Several things may go to one place.
+                    if !exchange.topics.contains(place) {
+                        exchange.topics.push(*place);
+                    }
+                }
                 exchange.whither = Some(*place);
             }
             None => self.hear_of_things(places),
@@ -306,6 +333,45 @@ impl Memory {
             }
         }
         things
+    }
+
+    /// Those of the last list that its Nth may be: by its order, or by that in which orders took of it. Two are meant by a number
+    /// that counts differently in the two, and all that are left where it is one that was taken.
+    pub(super) fn numbered(&self, at: usize) -> Vec<Thing> {
+        let (list, taken) = (&self.listed, self.taken.of(&self.listed));
+        let other = match (&list[..], taken) {
+            ([_, _], [only]) if at == 1 => list.iter().find(|thing| *thing != only),
+            _ => None,
+        };
+        let told =
+            list.get(at).filter(|_| !self.taken.is_any || list.len() > 2 || taken.is_empty());
+        let in_turn = taken.get(at).or(other);
+        match (told, in_turn) {
+            (Some(told), Some(in_turn)) if told != in_turn => vec![*told, *in_turn],
+            (Some(told), None) if taken.contains(told) => {
+                list.iter().copied().filter(|thing| !taken.contains(thing)).collect()
+            }
+            (told, in_turn) => told.or(in_turn).copied().into_iter().collect(),
+        }
+    }
+
+    /// Whether orders took any of the last list, and not by its number.
+    pub(super) fn has_taken(&self) -> bool {
+        !self.taken.of(&self.listed).is_empty()
+    }
+
+    /// Notes that an order takes one of the last list, by its name or as any of them.
+    pub(super) fn take(&mut self, thing: Thing, is_any: bool) {
+        if self.listed.len() < 2 || !self.listed.contains(&thing) {
+            return;
+        }
+        if self.taken.of(&self.listed).is_empty() {
+            self.taken = Taken { list: self.listed.clone(), is_any: true, things: Vec::new() };
+        }
+        self.taken.is_any &= is_any;
+        if !self.taken.things.contains(&thing) {
+            self.taken.things.push(thing);
+        }
     }
 
     /// Notes several things, none of which is more spoken of than the others.

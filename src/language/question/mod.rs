@@ -46,6 +46,7 @@ mod memory;
 mod nearest;
 mod notation;
 mod noun;
+mod numbered;
 mod of_those;
 mod one_of_two;
 mod opening;
@@ -79,7 +80,7 @@ mod vocabulary;
 mod whole;
 mod why;
 
-pub use address::unaddressed;
+pub use address::{unaddressed, unbegged};
 pub use asides::{Aside, aside, asks_whether, begs, behind_no};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use departed::{Departed, Stamp};
@@ -383,11 +384,12 @@ impl Asker<'_> {
                 let doubt = memory.why_nothing(doubt).quoted_from(text);
                 let before = memory.exchanges.clone();
                 // What else the question named is spoken of all the same.
-                if doubt.is_unread() {
+                let is_cut = self.cuts_name(text, &doubt);
+                if doubt.is_unread() && !is_cut {
                     self.hear_of(text, memory);
                 }
                 let is_deaf = memory.exchanges == before && self.pronouns(text).is_empty();
-                let names_nothing = is_deaf && self.introduces(text);
+                let names_nothing = is_cut || is_deaf && self.introduces(text);
                 let asked = memory.query.take_if(|_| is_only_named(text, &doubt));
                 let place = memory.told_place.filter(|_| matches!(doubt, Doubt::Unknown { .. }));
                 memory.miss(&doubt, names_nothing);
@@ -515,6 +517,7 @@ impl Asker<'_> {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
         let text = self.mind.paraphrases.plain(&text);
+        let text = points::without_rooms(&text, self.world, &self.mind.lexicon);
         let named = storeys::named(&text, self.world, self.relations, here);
         let named = here::named(&named, || self.own_room(&named));
         self.mind.plain.of(&named, || everyday::plain(&named, &self.mind.lexicon).into_owned())
@@ -570,7 +573,9 @@ impl Asker<'_> {
         }
         let place = self.person_at(text, memory);
         let storey = self.with_storey(text, memory);
-        self.answer_at(place.as_ref(), storey.as_deref().unwrap_or(text), language, memory)
+        let text = storey.as_deref().unwrap_or(text);
+        let told = self.with_told(text, memory).map_err(|doubt| Box::new((doubt, None)))?;
+        self.answer_at(place.as_ref(), told.as_deref().unwrap_or(text), language, memory)
     }
 
     /// The answer to a question that is asked at a place, the robot's where none was told.
@@ -627,6 +632,7 @@ impl Asker<'_> {
         }
         self.as_it_was(&mut query, text, memory);
         let knowledge = self.knowledge(language, memory);
+        knowledge.things_there(&mut query, text);
         knowledge.focus(&mut query);
         // "Is there one in the office as well?", where nothing tells of what.
         let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();

@@ -317,7 +317,11 @@ impl Asker<'_> {
         // "How many of the three are on the bed? – Two. – Where is the third?"
         let knowledge = self.knowledge(sentence.language, memory);
         let wider = || knowledge.list_with(&memory.listed)?.get(at).copied();
-        let meant = memory.listed.get(at).copied().or_else(wider)?;
+        let meant = match memory.numbered(at)[..] {
+            [only] => only,
+            [] => wider()?,
+            _ => return None,
+        };
         let noun = Noun::of(vec![meant]);
         Some(match &memory.query {
             Some(query @ (Query::Property { .. } | Query::Size { .. })) if !asks_where => {

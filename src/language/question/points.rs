@@ -2,12 +2,16 @@
 //!
 //! Invariant: nothing is said to be in a point, or not to be. A room in which there is one point alone is called after it.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use super::Doubt;
 use super::knowledge::Knowledge;
-use super::lexicon::{Extension, KindId};
+use super::lexicon::{Extension, KindId, Lexicon, Meaning};
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
-use crate::map::Entity;
+use crate::map::{Entity, World};
 use crate::units::PlaceId;
+use crate::words::{Language, word_ranges};
 
 /// The one point that a noun names.
 fn point_of(noun: &Noun) -> Option<PlaceId> {
@@ -36,29 +40,83 @@ fn each_point(query: &mut Query, mut seen: impl FnMut(PlaceId, &mut Noun)) {
     query.each_noun(&mut |noun| noun.restrictions.iter_mut().for_each(&mut look));
 }
 
+/// «В комнате coe», "the coe room": a text without the noun before or behind the name of a point that is alone in its room.
+pub(super) fn without_rooms<'t>(text: &'t str, world: &World, lexicon: &Lexicon) -> Cow<'t, str> {
+    if world.places.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let words = word_ranges(text);
+    let meant = |words: &[Range<usize>]| match words {
+        [first, .., last] => lexicon.nouns.find(&text[first.start..last.end]),
+        [only] => lexicon.nouns.find(&text[only.clone()]),
+        [] => Vec::new(),
+    };
+    let is_room = |at: &usize| {
+        meant(&words[*at..=*at]).into_iter().any(|hit| match hit.id {
+            Meaning::Kind(kind) => lexicon.kind(*kind).extension == Extension::Rooms,
+            Meaning::Entity(_) => false,
+        })
+    };
+    let Some(at) = (0..words.len()).find(is_room) else { return Cow::Borrowed(text) };
+    let places = &world.places;
+    let alone = |id: &PlaceId| {
+        places.get(id).is_some_and(|place| {
+            places.values().filter(|other| other.area == place.area).count() == 1
+        })
+    };
+    let is_point = |words: &[Range<usize>]| {
+        meant(words)
+            .iter()
+            .any(|hit| matches!(hit.id, Meaning::Entity(Entity::Place(place)) if alone(place)))
+    };
+    /// Words of a name.
+    const MOST: usize = 4;
+    let follows =
+        || (at + 2..=words.len().min(at + 1 + MOST)).any(|to| is_point(&words[at + 1..to]));
+    let leads = || (at.saturating_sub(MOST)..at).any(|from| is_point(&words[from..at]));
+    let gone = match Language::of(text) {
+        Language::English if at > 0 && leads() => words[at - 1].end..words[at].end,
+        _ if at + 1 < words.len() && follows() => words[at].start..words[at + 1].start,
+        _ => return Cow::Borrowed(text),
+    };
+    let mut left = text.to_owned();
+    left.replace_range(gone, "");
+    Cow::Owned(left)
+}
+
 impl Knowledge<'_> {
     /// Puts the room for the one point in it.
     pub(super) fn rooms_for_points(&self, query: &mut Query) {
+        let is_room = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;
+        query.each_noun(&mut |noun| {
+            for anchor in noun.restrictions.iter_mut().flat_map(|place| &mut place.anchors) {
+                self.room_called_after_point(anchor, is_room);
+            }
+        });
         each_point(query, |point, noun| self.room_for_point(point, noun));
         // A point has no size, and no rooms: "How big is the pantry room?"
         let sized = matches!(query, Query::Size { .. } | Query::Larger { .. });
-        let is_room = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;
         query.each_noun(&mut |noun| {
             if let Some(point) = point_of(noun).filter(|_| sized) {
                 return self.room_for_point(point, noun);
             }
-            let [place] = &noun.restrictions[..] else { return };
-            let [anchor] = &place.anchors[..] else { return };
-            if let (Rel::Of, Some(point)) = (place.rel, point_of(anchor))
-                && noun.head.kinds.iter().any(is_room)
-            {
-                let restrictions = std::mem::take(&mut noun.restrictions);
-                self.room_for_point(point, noun);
-                if noun.head.named.is_empty() {
-                    noun.restrictions = restrictions;
-                }
-            }
+            self.room_called_after_point(noun, is_room);
         });
+    }
+
+    /// "The pantry room": the room of the point, not one that is in it.
+    fn room_called_after_point(&self, noun: &mut Noun, is_room: impl Fn(&KindId) -> bool) {
+        let [place] = &noun.restrictions[..] else { return };
+        let [anchor] = &place.anchors[..] else { return };
+        if let (Rel::Of | Rel::In, Some(point)) = (place.rel, point_of(anchor))
+            && noun.head.kinds.iter().any(is_room)
+        {
+            let restrictions = std::mem::take(&mut noun.restrictions);
+            self.room_for_point(point, noun);
+            if noun.head.named.is_empty() {
+                noun.restrictions = restrictions;
+            }
+        }
     }
 
     fn room_for_point(&self, point: PlaceId, noun: &mut Noun) {

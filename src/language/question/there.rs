@@ -255,6 +255,39 @@ impl Knowledge<'_> {
         }
     }
 
+    /// «Что на столе? – Коврик, тарелка и чашка. – Положи туда яблоко»: on the table, whatever of these may bear it.
+    pub(super) fn place_of_list(&self) -> Option<Thing> {
+        let sought =
+            self.memory.query.as_ref()?.sought().filter(|noun| self.is_anything(&noun.head));
+        let [Restriction { rel: Rel::In | Rel::On, negated: false, .. }] =
+            &sought?.restrictions[..]
+        else {
+            return None;
+        };
+        let latest = self.memory.exchanges.first()?;
+        let bearing: Vec<&Thing> =
+            latest.topics().iter().filter(|thing| thing.replica().is_some()).collect();
+        match (&bearing[..], latest.topics()) {
+            ([place], _) if latest.members().len() > 1 => Some(**place),
+            ([], [place, ..]) if latest.members().len() > 1 => Some(*place),
+            _ => self.place_asked_of().filter(|place| latest.things().any(|told| told == place)),
+        }
+    }
+
+    /// "How many things are there?" after an order: where that went, and not in the whole house.
+    pub(super) fn things_there(&self, query: &mut Query, text: &str) {
+        let (Some(place), Query::Count(noun) | Query::Find(noun)) = (self.memory.told_place, query)
+        else {
+            return;
+        };
+        let ends = word_keys(text).last().is_some_and(|key| set!("ThereWord").contains(&&**key));
+        let bare = noun.restrictions.is_empty() && noun.filters.is_empty() && noun.best.is_none();
+        if ends && bare && self.is_anything(&noun.head) {
+            let anchors = vec![Noun::of(vec![place])];
+            noun.restrictions.push(Restriction { rel: Rel::There, anchors, negated: false });
+        }
+    }
+
     /// In which rooms the things are that were spoken of last.
     pub(super) fn rooms_spoken_of(&self) -> Vec<Thing> {
         let last = self.memory.exchanges.first().into_iter().flat_map(Exchange::things);

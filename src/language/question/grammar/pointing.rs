@@ -87,6 +87,14 @@ impl Sentence<'_> {
         means_it.then_some((Tokens(after), Mark::Pronoun(Pronoun::Any)))
     }
 
+    /// Whether no noun stands behind the words before this one, nor a value that is said of it.
+    pub(in super::super) fn ends_noun(&self, at: usize) -> bool {
+        let from = self.tokens.iter().position(|token| token.from as usize >= at);
+        let after = from.map_or(&[][..], |from| &self.tokens[from..]);
+        let values = after.iter().take_while(|t| matches!(t.kind, Tok::Value(_))).count();
+        !begins_noun(Tokens(&after[values..]))
+    }
+
     /// Whether a "this" or "those" stands without a noun: it points at what was spoken of.
     pub(in super::super) fn points(&self) -> bool {
         static THESE: Set = Set::named("These");

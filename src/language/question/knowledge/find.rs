@@ -82,7 +82,14 @@ impl Knowledge<'_> {
             found.extend(self.members(&Extension::Doors));
         }
         let known = self.in_focus(&found).filter(|_| noun.other && !noun.head.anything);
-        if let Some(known) = known {
+        // "The other lamp" after an order to one of those that were told is one of those.
+        let told = self.of_listed(&found);
+        if let Some(known) = known.filter(|known| told.contains(known) && told.len() > 1)
+            && !noun.plural
+        {
+            found = told;
+            found.retain(|t| *t != known);
+        } else if let Some(known) = known {
             found.retain(|t| *t != known);
         } else if noun.other {
             // What was spoken of long ago is no part of "what else".
@@ -283,7 +290,14 @@ impl Knowledge<'_> {
             // «вторая чашка» of several that were just told.
             (None, Some(rank)) if self.of_listed(&found).len() > 1 => {
                 let at = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
-                Ok(self.of_listed(&found).get(at).copied().into_iter().collect())
+                let listed = self.of_listed(&found);
+                let whole = listed == self.memory.listed;
+                let meant = || self.memory.numbered(at);
+                match whole.then(meant).filter(|meant| meant.len() > 1) {
+                    Some(several) => Err(self.ambiguous(noun, &several)),
+                    None if whole => Ok(meant()),
+                    None => Ok(listed.get(at).copied().into_iter().collect()),
+                }
             }
             // «А вторая ваза?» of two, one of which was spoken of.
             (None, Some(2)) if found.len() == 2 && self.in_focus(&found).is_some() => {

@@ -270,14 +270,18 @@ impl Resolver<'_, '_> {
             listed => listed,
         };
         let in_turn = memory.in_turn(able);
-        let meant = [listed, &in_turn[..]].map(|told| told.get(rank).filter(|_| told.len() > 1));
-        match meant {
-            [Some(one), Some(other)] if one != other => Err(Doubt::Ambiguous {
-                reference: noun.text.clone(),
-                candidates: vec![*one, *other],
-            }),
-            [None, None] => Err(Doubt::NoReferent { word: noun.text.clone() }),
-            [one, other] => Ok(one.or(other).map(|thing| vec![*thing])),
+        let mut meant = match memory.listed.is_empty() {
+            true => listed.get(rank).filter(|_| listed.len() > 1).copied().into_iter().collect(),
+            false => memory.numbered(rank),
+        };
+        let other = in_turn.get(rank).filter(|_| in_turn.len() > 1);
+        if let Some(other) = other.filter(|thing| !meant.contains(thing)) {
+            meant.push(*other);
+        }
+        match meant.len() {
+            0 => Err(Doubt::NoReferent { word: noun.text.clone() }),
+            1 => Ok(Some(meant)),
+            _ => Err(Doubt::Ambiguous { reference: noun.text.clone(), candidates: meant }),
         }
     }
 

@@ -38,6 +38,7 @@ use crate::paraphrase::lost;
 use crate::sets::set;
 use crate::units::{AreaId, InOrder as _};
 use crate::words::{Case, NounPhrase, enumerate, word_keys, word_ranges};
+use terse::counts;
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
 pub type Strict<'a> = dyn Fn(&str) -> Option<Entity> + 'a;
@@ -127,11 +128,16 @@ impl Asker<'_> {
         let said = word_keys(&gathered);
         let text = self.with_shown(self.plain(&gathered), memory).map_err(misread)?;
         let text = self.with_kind(text, memory);
-        let text = match self.with_one_of_those(text.clone(), memory) {
+        let before = text;
+        let text = match self.with_one_of_those(before.clone(), memory) {
+            Ok(text) => text,
+            Err((doubt, at)) => return Err(self.asked_back(doubt, before, at, language, memory)),
+        };
+        let (is_any, by_number) = (text != before, counts(&said));
+        let text = match self.with_noun(text.clone(), memory) {
             Ok(text) => text,
             Err((doubt, at)) => return Err(self.asked_back(doubt, text, at, language, memory)),
         };
-        let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let Used { text, at: used, heads } = self.with_use(text, language).map_err(misread)?;
         let numbers = lost(&said, &word_keys(&text)).into_iter();
@@ -182,6 +188,11 @@ impl Asker<'_> {
                 let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
                 let object = object.map(|edit| (edit.at.clone(), edit.things.clone()));
                 let object = object.or_else(|| self.done_to_it(&text, &sentence, memory));
+                if let (Some((_, taken)), false) = (&object, by_number)
+                    && let [taken] = taken[..]
+                {
+                    memory.take(taken, is_any);
+                }
                 // «А теперь выключи» names nothing: the command before is what may be amended.
                 let amendable = (object.is_some() || goal.is_some()).then(|| Ordered {
                     text: text.clone(),
@@ -397,7 +408,8 @@ impl Resolver<'_, '_> {
         let mut edits: Vec<Edit> = links.iter().map(Edit::deletion).collect();
         // «Отнеси чашку на стол. Положи туда книгу»: whither the last order went.
         let memory = self.knowledge.memory;
-        let place = memory.told_place.or_else(|| memory.last_thing());
+        let listed = || self.knowledge.place_of_list();
+        let place = memory.told_place.or_else(listed).or_else(|| memory.last_thing());
         let mut told = Told { place, ..Told::default() };
         for clause in 0..clauses.len().max(1) {
             let own = spots.iter().filter(|s| s.clause == clause).collect();

@@ -215,7 +215,10 @@ impl Asker<'_> {
             && candidates.iter().all(|thing| listed.contains(thing))
         {
             let at = usize::try_from(rank).ok()?.checked_sub(1)?;
-            return listed.get(at).map(|next| done(*next));
+            return match memory.numbered(at)[..] {
+                [next] => Some(done(next)),
+                _ => None,
+            };
         }
         if !OTHER.contains(&keys.join(" ").as_str()) {
             return None;
@@ -227,10 +230,18 @@ impl Asker<'_> {
         let wanted = candidates.last().and_then(kind)?;
         let given = |t: &Thing| t.replica().is_some_and(|id| self.senses.holder(id).is_some());
         let all = self.world.replicas.keys().map(|id| Thing::Entity(Entity::Replica(*id)));
-        let others =
-            all.filter(|t| kind(t) == Some(wanted) && !candidates.contains(t) && !given(t));
+        let mut others: Vec<Thing> = all
+            .filter(|t| kind(t) == Some(wanted) && !candidates.contains(t) && !given(t))
+            .collect();
+        // Of several that were told, one of those that are left.
+        if candidates.iter().all(|thing| listed.contains(thing))
+            && others.iter().any(|thing| listed.contains(thing))
+        {
+            others.retain(|thing| listed.contains(thing));
+        }
         let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
-        others.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b))).map(done)
+        let nearest = others.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)));
+        nearest.map(done)
     }
 
     /// «И на кухне тоже», "and in the kitchen too": the last command, done to what is there.

@@ -5,19 +5,28 @@ use std::ops::Range;
 
 use super::Resolver;
 use crate::command::{self, Sort};
+use crate::map::Entity;
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
 use crate::question::memory::{Exchange, Ordered};
 use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
 use crate::sets::{Set, set};
-use crate::words::{Case, Language, NounPhrase, Number, word_keys, word_ranges};
+use crate::words::{
+    Case, Language, NounPhrase, Number, WordHints, phrase_at, word_keys, word_ranges,
+};
 
 /// What is said before an amendment.
 static BEFORE: Set = Set::named("BeforeTerse");
 
 /// What was done wrong: "not that one", «не эту».
 static WRONG: Set = Set::named("WrongOne");
+
+/// What was meant, or should have been done.
+static MEANT: Set = Set::named("ShouldHaveBeen");
+
+/// To do with another what was done.
+static SAME: Set = Set::named("SameWith");
 
 /// Whither the last order went, once more.
 static THERE: Set = Set::named("ThereToo");
@@ -48,6 +57,16 @@ impl<'t> Anew<'t> {
         let mut at = 0;
         let (mut amends, mut denies, mut is_only_wrong) = (false, false, false);
         while let Some(key) = keys.get(at) {
+            // «Надо было на диван», "it should have been the sofa": what was done is not meant; "the same with": what is done is.
+            let whole = |set: &Set| set.iter().filter_map(|said| phrase_at(&keys, at, said)).max();
+            if let Some(taken) = whole(&MEANT) {
+                (amends, denies, at) = (true, true, at + taken);
+                continue;
+            }
+            if let Some(taken) = whole(&SAME) {
+                (amends, at) = (true, at + taken);
+                break;
+            }
             let small = BEFORE.contains(&key.as_str());
             let wrong = amends && at > 0 && WRONG.contains(&key.as_str());
             // «тот, что на столе» is what is meant instead.
@@ -81,6 +100,23 @@ impl<'t> Anew<'t> {
         let said = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
         Some(Self { said, amends, denies, is_only_wrong })
     }
+}
+
+/// Whether a text is a verb alone that moves things, as an order before does.
+fn only_moves(text: &str, order: &str) -> bool {
+    let verb = text.trim();
+    let moves = |text: &str| {
+        let sort = command::clauses(text).first().map(|(_, sort)| *sort);
+        matches!(sort, Some(Sort::Put | Sort::Carry))
+    };
+    matches!(&command::verbs_of(verb)[..], [said] if *said == (0..verb.len()))
+        && moves(verb)
+        && moves(order)
+}
+
+/// Whether one of these words is a number in an order: «вторую», "the second one".
+pub(super) fn counts(keys: &[String]) -> bool {
+    (0..keys.len()).any(|n| matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Rank(_)))))
 }
 
 fn has_clauses(text: &str) -> bool {
@@ -175,6 +211,16 @@ impl Asker<'_> {
         if anew.is_only_wrong || text.trim_end().ends_with('?') {
             return None;
         }
+        // «Надо было на диван – переложи»
+        let said = match anew.said.rsplit_once([',', ';', '–', '—']) {
+            Some((said, verb))
+                if anew.denies && !has_clauses(said) && only_moves(verb, &ordered.text) =>
+            {
+                said
+            }
+            _ => anew.said,
+        };
+        let anew = Anew { said, ..anew };
         if has_clauses(anew.said) {
             return ordered.with_verb(anew.said).filter(|_| is_open);
         }
@@ -319,6 +365,21 @@ impl Asker<'_> {
         Some(format!("{bare} {kind}"))
     }
 
+    /// The same of a door as well.
+    pub(in crate::question) fn kind_word(
+        &self,
+        thing: Thing,
+        language: Language,
+    ) -> Option<String> {
+        match thing {
+            Thing::Entity(Entity::Door(_)) => {
+                let noun = set!("Concept.Doors").first()?;
+                Some(NounPhrase::parse(noun, &WordHints::default()).case(Case::Accusative))
+            }
+            thing => self.kind_of(thing, language),
+        }
+    }
+
     /// What a thing is called by its type; in Russian as an object of a verb.
     fn kind_of(&self, thing: Thing, language: Language) -> Option<String> {
         let object = self.world.replicas.get(&thing.replica()?)?.object;
@@ -391,7 +452,14 @@ impl Asker<'_> {
     }
 
     /// An adjective without its noun: «вторую» counts what was told, «красную» is of the kind of what was spoken of.
-    pub(super) fn with_noun(&self, mut text: String, memory: &Memory) -> String {
+    ///
+    /// # Errors
+    /// What was told and what orders took of it are counted differently.
+    pub(super) fn with_noun(
+        &self,
+        mut text: String,
+        memory: &Memory,
+    ) -> Result<String, (Doubt, Range<usize>)> {
         const ENDINGS: [&str; 7] = ["ую", "юю", "ый", "ий", "ой", "ое", "ее"];
         let (words, keys) = (word_ranges(&text), word_keys(&text));
         let ends = |n: usize| match words.get(n) {
@@ -403,18 +471,28 @@ impl Asker<'_> {
         };
         let adjective = |n: &usize| ENDINGS.iter().any(|ending| keys[*n].ends_with(ending));
         let lone = (1..words.len()).filter(|n| ends(n + 1)).find(adjective);
-        let Some(n) = lone.filter(|_| !memory.last.is_empty()) else { return text };
+        let Some(n) = lone.filter(|_| !memory.last.is_empty()) else { return Ok(text) };
         let language = Language::of(&text);
         let noun = match vocabulary::longest(&keys[n..]) {
             Some((1, Mark::Rank(rank))) => {
                 let rank = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
-                let listed = if memory.listed.is_empty() { &memory.last } else { &memory.listed };
-                let told = listed.get(rank).copied();
-                let name = told.map(|t| self.knowledge(language, memory).form(t, Case::Accusative));
-                if let Some(name) = name {
-                    text.replace_range(words[n].clone(), &name);
+                let told = match memory.listed.is_empty() {
+                    true => memory.last.get(rank).copied().into_iter().collect(),
+                    false => memory.numbered(rank),
+                };
+                let at = words[n].clone();
+                match told[..] {
+                    [] => {}
+                    [only] => {
+                        let name = self.knowledge(language, memory).form(only, Case::Accusative);
+                        text.replace_range(at, &name);
+                    }
+                    _ => {
+                        let reference = text[at.clone()].to_owned();
+                        return Err((Doubt::Ambiguous { reference, candidates: told }, at));
+                    }
                 }
-                return text;
+                return Ok(text);
             }
             _ => {
                 let value = self.mind.lexicon.values.longest(&keys[n..]);
@@ -427,7 +505,7 @@ impl Asker<'_> {
         if let Some(noun) = noun {
             text.insert_str(words[n].end, &format!(" {noun}"));
         }
-        text
+        Ok(text)
     }
 
     /// What a pronoun means in a command: what was spoken of last, and of that only what its verb can be done to.
