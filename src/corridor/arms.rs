@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use miette::SourceSpan;
 
-use crate::units::{Bilingual, Deg};
+use crate::units::{Bilingual, Deg, said};
 
 use super::fault::CorridorFault;
 use super::system::{Junction, JunctionKind, Port, Stretch, Turn, VertexIx};
@@ -254,5 +254,5 @@ impl Assignment<'_> {
 }
 
 fn dead_end() -> Bilingual {
-    ("тупик", "a dead end").into()
+    said!("a-dead-end")
 }

@@ -1,6 +1,6 @@
 //! Directions from where the robot stands to the entrance of a room.
 
-use crate::units::{Bilingual, Language, nearest_name};
+use crate::units::{Language, nearest_name, said};
 
 use super::CorridorError;
 use super::command::Command;
@@ -205,14 +205,14 @@ fn named(system: &CorridorSystem, name: &str) -> Result<Vec<VertexIx>, CorridorE
         .collect();
     let hint = match nearest_name(name, rooms.iter().copied()) {
         Some(near) => {
-            Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
+            said!("perhaps-2", near)
         }
         None if rooms.is_empty() => {
-            ("в описании нет ни одного входа", "the description has no entrance").into()
+            said!("the-description-has-no-entrance")
         }
         None => {
             let known = list(rooms.into_iter());
-            Bilingual::new(format!("есть входы: {known}"), format!("there are entrances: {known}"))
+            said!("there-are-entrances", known)
         }
     };
     Err(CorridorError::UnknownRoom { room: name.to_owned(), hint })
@@ -238,11 +238,8 @@ fn why_none(
     let floor = &system.vertex(position.vertex).floor;
     let other = goals.iter().map(|&g| &system.vertex(g).floor).find(|f| *f != floor);
     let hint = match other {
-        Some(other) => Bilingual::new(
-            format!("«{from}» – на «{floor}», «{to}» – на «{other}»: нужен лифт"),
-            format!("“{from}” is on “{floor}”, “{to}” on “{other}”: a lift is needed"),
-        ),
-        None => ("их коридоры не соединены", "their corridors are not joined").into(),
+        Some(other) => said!("is-on-on-a-lift-is-needed", from, floor, to, other),
+        None => said!("their-corridors-are-not-joined"),
     };
     CorridorError::Unreachable { from: from.to_owned(), to: to.to_owned(), hint }
 }

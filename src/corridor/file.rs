@@ -25,7 +25,9 @@ use miette::SourceSpan;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::units::{Bilingual, Cm, Gather as _, InOrder as _, Language, Source, nearest_name};
+use crate::units::{
+    Bilingual, Cm, Gather as _, InOrder as _, Language, Source, nearest_name, said, word,
+};
 
 use super::arms::{self, Declared};
 use super::fault::{CorridorFault, CorridorFileError};
@@ -120,7 +122,7 @@ impl Reader {
     }
 
     fn check_format(&mut self, table: Table<'_, '_>) {
-        let hint = ("первой строкой: format = 1", "in the first line: format = 1").into();
+        let hint = said!("in-the-first-line-format-1");
         match table.get("format") {
             None => {
                 let at = (0..0).into();
@@ -147,11 +149,7 @@ impl Reader {
         if let Some(value) = table.get("u_turn") {
             match number(value.get_ref()) {
                 Some(u_turn) if (0.0..=1e6).contains(&u_turn) => weights.u_turn = u_turn,
-                _ => self.wrong(
-                    "u_turn",
-                    ("число от 0 до 1000000", "a number from 0 to 1000000"),
-                    value,
-                ),
+                _ => self.wrong("u_turn", word!("a-number-from-0-to-1000000"), value),
             }
         }
         weights
@@ -159,7 +157,7 @@ impl Reader {
 
     fn corridor(&mut self, value: Value<'_, '_>) -> Option<Corridor> {
         let Some(table) = value.get_ref().as_table() else {
-            self.wrong("corridor", ("таблицы [[corridor]]", "tables [[corridor]]"), value);
+            self.wrong("corridor", word!("tables-corridor"), value);
             return None;
         };
         self.check_fields(table, CORRIDOR_FIELDS);
@@ -167,7 +165,7 @@ impl Reader {
         let closed = match table.get("closed") {
             None => false,
             Some(value) => value.get_ref().as_bool().unwrap_or_else(|| {
-                self.wrong("closed", ("true или false", "true or false"), value);
+                self.wrong("closed", word!("true-or-false"), value);
                 false
             }),
         };
@@ -183,11 +181,7 @@ impl Reader {
 
     fn stop(&mut self, value: Value<'_, '_>) -> Option<Stop> {
         let Some(table) = value.get_ref().as_table() else {
-            self.wrong(
-                "along",
-                ("запись вида { vertex = 0, … }", "an entry like { vertex = 0, … }"),
-                value,
-            );
+            self.wrong("along", word!("an-entry-like-vertex-0"), value);
             return None;
         };
         self.check_fields(table, STOP_FIELDS);
@@ -197,27 +191,17 @@ impl Reader {
         let metres = table.get("metres").and_then(|value| match number(value.get_ref()) {
             Some(m) if m > 0.0 && m <= Cm::LIMIT / 100.0 => Some(Cm::of(m * 100.0)),
             _ => {
-                self.wrong(
-                    "metres",
-                    ("положительное число метров", "a positive number of metres"),
-                    value,
-                );
+                self.wrong("metres", word!("a-positive-number-of-metres"), value);
                 None
             }
         });
         let Some(vertex) = table.get("vertex") else {
-            let hint =
-                ("номер вершины, например vertex = 7", "the vertex’s number, such as vertex = 7")
-                    .into();
+            let hint = word!("the-vertexs-number-such-as-vertex-7").into();
             self.faults.push(CorridorFault::MissingField { field: "vertex", hint, at });
             return None;
         };
         let Some(number) = vertex_number(vertex.get_ref()) else {
-            self.wrong(
-                "vertex",
-                ("целое число от 0 до 4294967295", "an integer from 0 to 4294967295"),
-                vertex,
-            );
+            self.wrong("vertex", word!("an-integer-from-0-to-4294967295"), vertex);
             return None;
         };
         if entrance.is_some() && junction.is_some() {
@@ -238,20 +222,8 @@ impl Reader {
             (None, None) => None,
             (room, _) => {
                 let (field, hint) = match room {
-                    Some(_) => (
-                        "side",
-                        (
-                            "с какой стороны дверь: side = \"right\" или \"left\"",
-                            "on which side the door is: side = \"right\" or \"left\"",
-                        ),
-                    ),
-                    None => (
-                        "room",
-                        (
-                            "какое помещение за дверью: room = \"201\"",
-                            "which room is behind the door: room = \"201\"",
-                        ),
-                    ),
+                    Some(_) => ("side", word!("on-which-side-the-door-is-side")),
+                    None => ("room", word!("which-room-is-behind-the-door-room")),
                 };
                 self.faults.push(CorridorFault::MissingField { field, hint: hint.into(), at });
                 None
@@ -276,10 +248,7 @@ impl Reader {
         }
         let Some(value) = table.get("junction") else {
             if !neighbours.is_empty() || !blind.is_empty() {
-                let hint = (
-                    "вид соединения: junction = \"branch-right\"",
-                    "the kind of the junction: junction = \"branch-right\"",
-                );
+                let hint = word!("the-kind-of-the-junction-junction-branch");
                 let at = stop;
                 self.faults.push(CorridorFault::MissingField {
                     field: "junction",
@@ -436,14 +405,11 @@ impl Reader {
             let field = key.get_ref().to_string();
             let hint = match nearest_name(&field, known.iter().copied()) {
                 Some(near) => {
-                    Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
+                    said!("perhaps-2", near)
                 }
                 None => {
                     let known = known.join(", ");
-                    Bilingual::new(
-                        format!("здесь бывают: {known}"),
-                        format!("here there may be: {known}"),
-                    )
+                    said!("here-there-may-be", known)
                 }
             };
             self.faults.push(CorridorFault::UnknownField { field, hint, at: key.span().into() });
@@ -455,11 +421,7 @@ impl Reader {
         if let Some(items) = value.get_ref().as_array() {
             return items.iter().collect();
         }
-        let expected = if field == "corridor" {
-            ("таблицы [[corridor]]", "tables [[corridor]]")
-        } else {
-            ("список [ … ]", "a list [ … ]")
-        };
+        let expected = if field == "corridor" { word!("tables-corridor") } else { word!("a-list") };
         self.wrong(field, expected, value);
         Vec::new()
     }
@@ -472,11 +434,7 @@ impl Reader {
                 Some(text.trim().to_owned())
             }
             _ => {
-                self.wrong(
-                    field,
-                    ("непустая строка в кавычках", "a text in quotation marks, not empty"),
-                    value,
-                );
+                self.wrong(field, word!("a-text-in-quotation-marks-not-empty"), value);
                 None
             }
         }
@@ -485,7 +443,7 @@ impl Reader {
     fn integer(&mut self, field: &str, value: Value<'_, '_>) -> Option<i64> {
         let found = integer(value.get_ref());
         if found.is_none() {
-            self.wrong(field, ("целое число", "an integer"), value);
+            self.wrong(field, word!("an-integer"), value);
         }
         found
     }

@@ -13,7 +13,7 @@ use super::strata::{reads, strata};
 use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
 use super::{clause, idle, misuse, product, subsume, unify, witness};
-use crate::units::Source;
+use crate::units::{Source, said};
 
 pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) -> Program {
     let mut declared = declare(items, faults);
@@ -131,10 +131,8 @@ pub(super) fn limits(items: &[Item], faults: &mut Found) -> Ceilings {
         limits.on_demand |= name == "magic-transform";
         let Ok(number) = value.trim().parse::<u64>() else {
             if is_limit(name) {
-                let (expected, found) = (
-                    ("целое число в кавычках", "an integer in quotation marks").into(),
-                    format!("«{value}»"),
-                );
+                let (expected, found) =
+                    (said!("an-integer-in-quotation-marks"), format!("«{value}»"));
                 faults.push(
                     *at,
                     RuleError::Syntax { expected, found: found.into(), at: (*at).into() },

@@ -13,7 +13,7 @@ use super::program::{
 use super::relations::{Column, RelationId, RelationInfo};
 use super::syntax::{self, Aggregation, Body, Comparison, Record, Rule, Span};
 use super::word::Words;
-use crate::units::bilingual;
+use crate::units::{said, word};
 
 /// Choices of a rule's disjunctions, multiplied out.
 const MAX_CHOICES: usize = 256;
@@ -27,8 +27,7 @@ pub(super) fn clauses(
     faults: &mut Found,
 ) -> Vec<Clause> {
     let Some(choices) = choices(&rule.body, true) else {
-        let (what, limit, at) =
-            (("вариантов у правила", "choices of a rule"), MAX_CHOICES, rule.at.into());
+        let (what, limit, at) = (word!("choices-of-a-rule"), MAX_CHOICES, rule.at.into());
         faults.push(rule.at, RuleError::TooLarge { what, limit, at });
         return Vec::new();
     };
@@ -36,8 +35,7 @@ pub(super) fn clauses(
     for head in &rule.heads {
         for choice in &choices {
             if choice.len() > MAX_PREMISES {
-                let (what, limit, at) =
-                    (("посылок у правила", "premises of a rule"), MAX_PREMISES, rule.at.into());
+                let (what, limit, at) = (word!("premises-of-a-rule"), MAX_PREMISES, rule.at.into());
                 faults.push(rule.at, RuleError::TooLarge { what, limit, at });
                 continue;
             }
@@ -67,8 +65,7 @@ pub(super) fn asking(
     faults: &mut Found,
 ) -> (Vec<Clause>, Vec<(String, Kind)>) {
     let Some(choices) = choices(&question.body, true) else {
-        let (what, limit, at) =
-            (("вариантов у вопроса", "choices of a question"), MAX_CHOICES, question.at.into());
+        let (what, limit, at) = (word!("choices-of-a-question"), MAX_CHOICES, question.at.into());
         faults.push(question.at, RuleError::TooLarge { what, limit, at });
         return (Vec::new(), Vec::new());
     };
@@ -89,8 +86,8 @@ pub(super) fn asking(
     let is_too_wide = exprs.len() > super::declared::MAX_COLUMNS;
     if is_too_wide || choices.iter().any(|choice| choice.len() > MAX_PREMISES) {
         let (what, limit) = match is_too_wide {
-            true => (("столбцов ответа", "columns of the answer"), super::declared::MAX_COLUMNS),
-            false => (("посылок у вопроса", "premises of a question"), MAX_PREMISES),
+            true => (word!("columns-of-the-answer"), super::declared::MAX_COLUMNS),
+            false => (word!("premises-of-a-question"), MAX_PREMISES),
         };
         faults.push(question.at, RuleError::TooLarge { what, limit, at: question.at.into() });
         return (Vec::new(), Vec::new());
@@ -409,14 +406,12 @@ impl Builder<'_> {
         let wanted = kind;
         let is_ordered = !is_of_texts && !matches!(op, Equal | NotEqual);
         if let (Some(kind @ Kind::Record(_)), true) = (kind, is_ordered) {
-            let what = bilingual!(
-                "{} между значениями типа {}",
-                "{} between values of the type {}",
-                op.sign(),
-                self.declared.kind_text(kind)
+            let what = said!(
+                "between-values-of-the-type",
+                sign = op.sign(),
+                kind = self.declared.kind_text(kind)
             );
-            let help =
-                ("записи сравнивают только на равенство", "records are compared for equality only");
+            let help = word!("records-are-compared-for-equality-only");
             self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
             return None;
         }
@@ -463,8 +458,7 @@ impl Builder<'_> {
         body: &mut Vec<Literal>,
     ) -> Option<VariableId> {
         let Some(mut choices) = choices(inner, true) else {
-            let (what, limit, at) =
-                (("вариантов у счёта", "choices of an aggregate"), MAX_CHOICES, at);
+            let (what, limit, at) = (word!("choices-of-an-aggregate"), MAX_CHOICES, at);
             self.fault(at, RuleError::TooLarge { what, limit, at: at.into() });
             return None;
         };

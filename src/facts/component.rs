@@ -11,7 +11,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::fault::{Found, RuleError};
 use super::syntax::{Atom, Body, Branch, Component, Expr, Item, Name, Role, Rule, Span, Type};
-use crate::units::{bilingual, nearest_name};
+use crate::units::{nearest_name, said, word};
 
 /// Components that make components: more is one that makes itself.
 const MAX_DEPTH: usize = 32;
@@ -105,15 +105,9 @@ impl Making<'_> {
                     self.faults.push(at, RuleError::Arity { name, expected, found, at: at.into() });
                 }
                 if returns(other, component, &scope, &mut Vec::new()) {
-                    let what = bilingual!(
-                        "компонент «{}» внутри самого себя",
-                        "the component “{}” within itself",
-                        component.head.name.text
-                    );
-                    let help = (
-                        "разорвите круг: компонент не наследует себя и не создаёт себя",
-                        "break the circle: a component neither inherits from itself nor makes itself",
-                    );
+                    let what =
+                        said!("the-component-within-itself", text = component.head.name.text);
+                    let help = word!("break-the-circle-a-component-neither-inherits");
                     let at = of.name.at;
                     self.faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
@@ -153,8 +147,7 @@ impl Making<'_> {
         depth: usize,
     ) -> Vec<Item> {
         if depth > MAX_DEPTH || self.items > MAX_ITEMS {
-            let (what, limit) =
-                (("компонентов друг в друге", "components within one another"), MAX_DEPTH);
+            let (what, limit) = (word!("components-within-one-another"), MAX_DEPTH);
             self.faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
             return Vec::new();
         }
@@ -208,8 +201,7 @@ impl Making<'_> {
             return;
         };
         if depth > MAX_DEPTH {
-            let (what, limit) =
-                (("компонентов друг в друге", "components within one another"), MAX_DEPTH);
+            let (what, limit) = (word!("components-within-one-another"), MAX_DEPTH);
             self.faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
             return;
         }
@@ -270,21 +262,12 @@ impl Making<'_> {
         });
         if declared != Some(true) {
             let what = match declared {
-                None => bilingual!(
-                    ".override {}: у наследуемых компонентов нет такого отношения",
-                    ".override {}: the components inherited from have no such relation",
-                    name.text
-                ),
-                Some(_) => bilingual!(
-                    ".override {}: отношение не объявлено overridable",
-                    ".override {}: the relation is not declared overridable",
-                    name.text
-                ),
+                None => said!("override-the-components-inherited-from-have-no", text = name.text),
+                Some(_) => {
+                    said!("override-the-relation-is-not-declared-overridable", text = name.text)
+                }
             };
-            let help = (
-                "заменяют отношения наследуемых компонентов, объявленные overridable",
-                "relations of the components inherited from are replaced, where they are declared overridable",
-            );
+            let help = word!("relations-of-the-components-inherited-from-are");
             self.faults.push(name.at, RuleError::Unsupported { what, help, at: name.at.into() });
         }
     }

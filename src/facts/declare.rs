@@ -7,7 +7,7 @@ use super::fault::{Found, RuleError};
 use super::program::Kind;
 use super::relations::{Column, RelationId, RelationInfo};
 use super::syntax::{Item, Name, Role};
-use crate::units::{Gather as _, bilingual, nearest_name};
+use crate::units::{Gather as _, nearest_name, said, word};
 
 pub(super) fn declare(items: &[Item], faults: &mut Found) -> Declared {
     let mut declared = Declared::default();
@@ -72,8 +72,7 @@ fn declare_fields(items: &[Item], declared: &mut Declared, faults: &mut Found) {
             let types: Vec<usize> =
                 types.map(|(_, field)| type_named(field, declared, faults).unwrap_or(0)).collect();
             if types.len() >= MAX_COLUMNS {
-                let (what, limit, at) =
-                    (("полей записи", "fields of a record"), MAX_COLUMNS, branch.name.at);
+                let (what, limit, at) = (word!("fields-of-a-record"), MAX_COLUMNS, branch.name.at);
                 faults.push(at, RuleError::TooLarge { what, limit, at: at.into() });
             }
             let is_new =
@@ -97,13 +96,8 @@ fn choose(name: &Name, domains: &[Vec<Name>], declared: &mut Declared, faults: &
             match info.columns.iter().position(|known| known.name == column.text) {
                 Some(at) => columns.push(at),
                 None => {
-                    let what = bilingual!(
-                        "choice-domain «{}» без такого столбца",
-                        "choice-domain “{}” without such a column",
-                        column.text
-                    );
-                    let help =
-                        ("назовите столбцы этого отношения", "name columns of this relation");
+                    let what = said!("choice-domain-without-such-a-column", text = column.text);
+                    let help = word!("name-columns-of-this-relation");
                     let at = column.at;
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
@@ -174,16 +168,9 @@ fn declare_type(
     let kind = declared.types[first].kind;
     let is_closed = matches!(kind, Kind::Record(_)) || declared.types[first].parts.len() > 1;
     if !is_union && is_closed {
-        let what = bilingual!(
-            "подтип «{}» записи или объединения «{}»",
-            "a subtype “{}” of the record or union “{}”",
-            name.text,
-            bases[0].text
-        );
-        let help = (
-            "подтип бывает у symbol, number, unsigned, float и их подтипов; второе имя даёт «=»",
-            "symbol, number, unsigned, float and their subtypes have subtypes; “=” gives a second name",
-        );
+        let what =
+            said!("a-subtype-of-the-record-or-union", text = name.text, text2 = bases[0].text);
+        let help = word!("symbol-number-unsigned-float-and-their-subtypes");
         faults.push(name.at, RuleError::Misuse { what, help, at: name.at.into() });
     }
     let parts = if is_union { known.clone() } else { Vec::new() };
@@ -234,7 +221,7 @@ fn declare_relation(
     faults: &mut Found,
 ) {
     if columns.len() > MAX_COLUMNS {
-        let (what, limit) = (("столбцов отношения", "columns of a relation"), MAX_COLUMNS);
+        let (what, limit) = (word!("columns-of-a-relation"), MAX_COLUMNS);
         faults.push(name.at, RuleError::TooLarge { what, limit, at: name.at.into() });
         return;
     }

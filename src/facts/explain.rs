@@ -10,7 +10,7 @@ use super::program::{Clause, Expr};
 use super::relations::RelationId;
 use super::step::Step;
 use super::trace::{Join, RuleTrace};
-use crate::units::{Bilingual, Language};
+use crate::units::{Bilingual, Piece, said, word};
 
 impl Evaluation<'_> {
     /// Notes a run of a clause.
@@ -52,13 +52,13 @@ impl Evaluation<'_> {
                 }
                 Step::Absent { source, key } => {
                     let (what, size) = self.request(&plan.requests[*source], key.len());
-                    (prefixed(("нет", "no"), &what), size)
+                    (prefixed(word!("no"), &what), size)
                 }
-                Step::Filter(_) => (("сравнение", "comparison").into(), None),
-                Step::Each { .. } => (("числа по порядку", "numbers in order").into(), None),
+                Step::Filter(_) => (said!("comparison"), None),
+                Step::Each { .. } => (said!("numbers-in-order"), None),
                 Step::Aggregate { function, end, .. } => {
                     ends.push(*end);
-                    (prefixed(("счёт", "aggregate"), &function.word().into()), None)
+                    (prefixed(word!("aggregate"), &function.word().into()), None)
                 }
                 Step::Let { .. } | Step::Reached => continue,
             };
@@ -85,33 +85,29 @@ impl Evaluation<'_> {
             }
             Request::Growing { relation, first, version } => {
                 let part = match version {
-                    Version::Recent => ("новые строки", "new rows"),
-                    Version::Stable => ("прежние строки", "earlier rows"),
-                    Version::All | Version::Finished => ("все строки", "all rows"),
+                    Version::Recent => word!("new-rows"),
+                    Version::Stable => word!("earlier-rows"),
+                    Version::All | Version::Finished => word!("all-rows"),
                 };
                 (*relation, first.iter().map(|n| column(*relation, *n)).collect(), Some(part))
             }
         };
         let name = &self.program.info(relation).name;
-        let (mut russian, mut english) = (name.clone(), name.clone());
-        if !key.is_empty() {
-            let key = key.join(", ");
-            (russian, english) = (format!("{name} по {key}"), format!("{name} by {key}"));
-        }
-        if let Some((in_russian, in_english)) = part {
-            let (russian, english) =
-                (format!("{russian}: {in_russian}"), format!("{english}: {in_english}"));
-            return (Bilingual::new(russian, english), None);
+        let relation_told = match key.is_empty() {
+            true => name.clone().into(),
+            false => said!("relation-by", name, key = key.join(", ")),
+        };
+        if let Some(part) = part {
+            return (said!("relation-in-part", relation = relation_told, part), None);
         }
         let size = self.finished.rows[relation.index()].as_ref().map(|rows| match rows.len() {
-            1 => ("строк 1", "1 row").into(),
-            len => Bilingual::new(format!("строк {len}"), format!("{len} rows")),
+            1 => said!("n-1-row"),
+            len => said!("rows", len),
         });
-        (Bilingual::new(russian, english), size)
+        (relation_told, size)
     }
 }
 
-fn prefixed((russian, english): (&str, &str), what: &Bilingual) -> Bilingual {
-    let said = |word, language| format!("{word} {}", what.say(language));
-    Bilingual::new(said(russian, Language::Russian), said(english, Language::English))
+fn prefixed(word: Piece, what: &Bilingual) -> Bilingual {
+    Bilingual::both(|language| format!("{} {}", word.say(language), what.say(language)))
 }

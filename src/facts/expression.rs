@@ -10,7 +10,7 @@ use super::lex::{Token, Word};
 use super::parse::{atom, disjunction};
 use super::read::{Input, Read, decimal, list, long_name, name, number, sign, text, unsigned};
 use super::syntax::{Aggregation, Body, Expr, Functor, Span};
-use crate::units::bilingual;
+use crate::units::{said, word};
 
 /// Longer chains of operators are refused: their trees are walked by recursion.
 const MAX_CHAIN: usize = 128;
@@ -23,7 +23,7 @@ pub(super) fn expression(input: Input<'_>) -> Read<'_, Expr> {
     if depth(&value) > MAX_CHAIN {
         let at = value.at().into();
         return input.refuse(RuleError::TooLarge {
-            what: ("глубина выражения", "levels of an expression"),
+            what: word!("levels-of-an-expression"),
             limit: MAX_CHAIN,
             at,
         });
@@ -66,7 +66,7 @@ fn bits(input: Input<'_>, first: Expr) -> Read<'_, Expr> {
         if waiting.len() > MAX_CHAIN {
             let at = rest.at().into();
             return rest.refuse(RuleError::TooLarge {
-                what: ("действий подряд", "operations in a row"),
+                what: word!("operations-in-a-row"),
                 limit: MAX_CHAIN,
                 at,
             });
@@ -118,11 +118,7 @@ fn chain<'a>(
         input = rest;
     }
     let at = input.at().into();
-    input.refuse(RuleError::TooLarge {
-        what: ("действий подряд", "operations in a row"),
-        limit: MAX_CHAIN,
-        at,
-    })
+    input.refuse(RuleError::TooLarge { what: word!("operations-in-a-row"), limit: MAX_CHAIN, at })
 }
 
 /// What stands behind an operator: a sign, or a word between two operands.
@@ -156,8 +152,7 @@ fn prefixes(input: Input<'_>) -> Read<'_, Vec<(Functor, Span)>> {
         if is_second {
             all.pop();
         } else if all.len() == MAX_CHAIN {
-            let (what, limit, at) =
-                (("действий подряд", "operations in a row"), MAX_CHAIN, at.into());
+            let (what, limit, at) = (word!("operations-in-a-row"), MAX_CHAIN, at.into());
             return input.refuse(RuleError::TooLarge { what, limit, at });
         } else {
             all.push((functor, at));
@@ -184,7 +179,7 @@ fn power(input: Input<'_>) -> Read<'_, Expr> {
         if operands.len() > MAX_CHAIN {
             let at = input.at().into();
             return input.refuse(RuleError::TooLarge {
-                what: ("действий подряд", "operations in a row"),
+                what: word!("operations-in-a-row"),
                 limit: MAX_CHAIN,
                 at,
             });
@@ -285,13 +280,9 @@ fn branch(input: Input<'_>) -> Read<'_, Expr> {
 fn foreign(input: Input<'_>) -> Option<RuleError> {
     let token = input.rest.first()?;
     let (what, help) = match &token.word {
-        Word::Sign("@") => (
-            ("функция из .functor", "a function of .functor"),
-            (
-                "чужой код здесь не выполняется: посчитайте её заранее и дайте таблицей фактов",
-                "foreign code is not run here: compute it beforehand, and give it as a table of facts",
-            ),
-        ),
+        Word::Sign("@") => {
+            (word!("a-function-of-functor"), word!("foreign-code-is-not-run-here-compute"))
+        }
         _ => return None,
     };
     Some(RuleError::Unsupported { what: what.into(), help, at: token.at.into() })
@@ -301,7 +292,7 @@ fn foreign(input: Input<'_>) -> Option<RuleError> {
 fn cast(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, word) = name(input)?;
     if word.text != "as" {
-        return input.fail(("значение", "a value"));
+        return input.fail(word!("a-value"));
     }
     let both = separated_pair(expression, sign(","), long_name);
     let (rest, (value, type_name)) = delimited(sign("("), both, sign(")")).parse(rest)?;
@@ -313,16 +304,13 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
     match rest.rest.first() {
         Some(Token { word: Word::Sign("("), at }) => {
-            let what = bilingual!("функция «{}»", "the function “{}”", name.text);
-            let help = (
-                "есть арифметика, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия",
-                "there are arithmetic, autoinc, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, operations on bits and truth",
-            );
+            let what = said!("the-function", text = name.text);
+            let help = word!("there-are-arithmetic-autoinc-cat-strlen-substr");
             rest.doubt(RuleError::Unsupported { what, help, at: name.at.to(*at).into() })
         }
         _ if name.text == "__ITERATION__" => input.refuse(RuleError::Unsupported {
             what: "__ITERATION__".into(),
-            help: ("заведите столбец, который считает шаги", "make a column that counts steps"),
+            help: word!("make-a-column-that-counts-steps"),
             at: name.at.into(),
         }),
         _ if name.text == "_" => Ok((rest, Expr::Any(name.at))),
@@ -335,7 +323,7 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
 fn call(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
     let Some(functor) = functor(&name.text) else {
-        return input.fail(("значение", "a value"));
+        return input.fail(word!("a-value"));
     };
     let (rest, args) =
         delimited(sign("("), opt(list(expression, sign(","))), sign(")")).parse(rest)?;
@@ -369,13 +357,13 @@ fn call(input: Input<'_>) -> Read<'_, Expr> {
 fn aggregate(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
     let Some(function) = aggregation(&name.text) else {
-        return input.fail(("значение", "a value"));
+        return input.fail(word!("a-value"));
     };
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign("("), .. }))
         && functor(&name.text).is_some()
         && !is_counted(rest)
     {
-        return input.fail(("значение", "a value"));
+        return input.fail(word!("a-value"));
     }
     let (rest, value) = match function {
         Aggregation::Count => (rest, None),

@@ -8,12 +8,13 @@ use super::limits::MAX_TEXT;
 use super::syntax::Span;
 use super::word::Note;
 use crate::units::{
-    Bilingual, English, EnglishGroup, Fault as _, InEnglish, InOrder as _, Language, Source, told,
+    Bilingual, English, EnglishGroup, Fault as _, InEnglish, InOrder as _, Language, Piece, Source,
+    told,
 };
 use thiserror::Error;
 
 /// Words of a message, in Russian and in English.
-pub(super) type Told = (&'static str, &'static str);
+pub(super) type Told = Piece;
 
 /// One fault of a rule text, or a warning about it (see [`RuleError::is_warning`]).
 #[derive(Debug, Clone, PartialEq, crate::units::Fault)]

@@ -8,7 +8,7 @@ use super::program::{Atom, Clause, Compare, Expr, Fact, Kind, Literal, Term};
 use super::syntax::{Comparison, Span};
 use super::value;
 use super::word::Words;
-use crate::units::Bilingual;
+use crate::units::{Bilingual, said, word};
 
 pub(super) fn warn(
     declared: &Declared,
@@ -24,10 +24,7 @@ pub(super) fn warn(
         let empty = clause.body.iter().filter_map(|literal| match literal {
             Literal::Atom(atom) if !may_hold[atom.relation.index()] => {
                 let name = &declared.relations[atom.relation.index()].name;
-                let why = Bilingual::new(
-                    format!("«{name}» всегда пусто"),
-                    format!("“{name}” is always empty"),
-                );
+                let why = said!("is-always-empty", name);
                 Some((why, atom.at))
             }
             _ => None,
@@ -84,13 +81,13 @@ fn excluded(body: &[Literal], words: &Words) -> Option<Excluded> {
         .filter(|compare| !compare.left.counts_on() && !compare.right.counts_on())
         .collect();
     if let Some(compare) = compares.iter().find(|compare| is_false(compare, words)) {
-        let why = ("сравнение всегда ложно", "the comparison is always false");
+        let why = word!("the-comparison-is-always-false");
         return Some((why.into(), compare.at));
     }
     let mut order = Order::default();
     for compare in compares {
         if !order.takes(compare, words) {
-            let why = ("сравнения исключают друг друга", "the comparisons exclude each other");
+            let why = word!("the-comparisons-exclude-each-other");
             return Some((why.into(), compare.at));
         }
     }
@@ -98,7 +95,7 @@ fn excluded(body: &[Literal], words: &Words) -> Option<Excluded> {
         Literal::Not(not) => body.iter().any(|other| is_denied(other, not)).then_some(not.at),
         _ => None,
     })?;
-    let why = ("то же утверждает другая посылка", "another premise states the same");
+    let why = word!("another-premise-states-the-same");
     Some((why.into(), denied))
 }
 

@@ -14,7 +14,7 @@ use super::fault::{Found, RuleError};
 use super::relations::RelationId;
 use super::syntax::{Atom, Body, Comparison, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
-use crate::units::{Gather as _, bilingual};
+use crate::units::{Gather as _, said, word};
 
 /// Rules put into rules put into rules: more is a relation that reads itself.
 const MAX_DEPTH: usize = 16;
@@ -158,14 +158,8 @@ impl Unfolding<'_> {
     ) -> Body {
         let name = &atom.relation.text;
         if depth >= MAX_DEPTH {
-            let what = bilingual!(
-                "inline-отношение «{name}», которое читает само себя",
-                "the inline relation “{name}” that reads itself"
-            );
-            let help = (
-                "уберите inline и свяжите переменные его правил",
-                "remove inline, and bind the variables of its rules",
-            );
+            let what = said!("the-inline-relation-that-reads-itself", name);
+            let help = word!("remove-inline-and-bind-the-variables-of");
             self.faults.push((atom.at, RuleError::Unsupported { what, help, at: atom.at.into() }));
             return Body::Any(Vec::new());
         }
@@ -194,14 +188,8 @@ impl Unfolding<'_> {
             parts.push(copy.body(body));
             // Not for any value of z: that is no conjunction of premises.
             if is_negated && copy.has_own {
-                let what = bilingual!(
-                    "отрицание inline-отношения «{name}» с переменными, которых нет в голове",
-                    "the negation of the inline relation “{name}” with variables that its head lacks"
-                );
-                let help = (
-                    "уберите inline и свяжите переменные его правил",
-                    "remove inline, and bind the variables of its rules",
-                );
+                let what = said!("the-negation-of-the-inline-relation-with", name);
+                let help = word!("remove-inline-and-bind-the-variables-of");
                 self.faults
                     .push((atom.at, RuleError::Unsupported { what, help, at: atom.at.into() }));
             }

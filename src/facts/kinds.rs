@@ -1,5 +1,6 @@
 //! What the values of a rule are computed as: found from columns and comparisons, checked where they are used.
 
+use crate::units::said;
 use std::collections::HashMap;
 
 use super::clause::{Builder, Premise, Scope};
@@ -330,7 +331,7 @@ impl Builder<'_> {
             syntax::Expr::Any(_) => "_".into(),
         };
         let found = match expr {
-            syntax::Expr::Nil(_) => ("запись", "a record").into(),
+            syntax::Expr::Nil(_) => said!("a-record"),
             _ => {
                 let kind = self.kind_of(expr, scope).unwrap_or(Kind::Symbol);
                 self.declared.kind_text(kind).into()

@@ -11,7 +11,7 @@ use nom::{IResult, Parser};
 use super::decimal::Decimal;
 use super::fault::RuleError;
 use super::syntax::Span;
-use crate::units::bilingual;
+use crate::units::{said, word};
 
 /// Deeper brackets are refused, so that reading them needs bounded stack.
 const MAX_DEPTH: usize = 64;
@@ -88,7 +88,7 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
         rest = match blank(rest) {
             Ok((after, _)) => after,
             Err(_) => {
-                let (what, closing) = (("комментарий", "the comment"), ("«*/»", "“*/”"));
+                let (what, closing) = (word!("the-comment"), word!("end-of-comment"));
                 faults.push(RuleError::Unclosed { what, closing, at: place(rest, rest).into() });
                 return tokens;
             }
@@ -132,14 +132,8 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
                 Some((value, after, unknown)) => {
                     let at = Span { end: place(rest, after).end, ..at };
                     if let Some(letter) = unknown {
-                        let what = bilingual!(
-                            "«\\{letter}» в тексте ничего не значит",
-                            "“\\{letter}” means nothing in a text"
-                        );
-                        let help = (
-                            r#"есть \" \' \\ \n \t \r \a \b \f \v; сама обратная черта пишется дважды"#,
-                            r#"there are \" \' \\ \n \t \r \a \b \f \v; a backslash itself is written twice"#,
-                        );
+                        let what = said!("means-nothing-in-a-text", letter);
+                        let help = word!("escapes-of-a-text");
                         faults.push(RuleError::Misuse { what, help, at: at.into() });
                     }
                     rest = after;
@@ -148,11 +142,8 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
                 }
                 None => {
                     let (what, closing) = (
-                        ("текст в кавычках", "a text in quotation marks"),
-                        (
-                            "закрывающую кавычку в той же строке",
-                            "the closing quotation mark on the same line",
-                        ),
+                        word!("a-text-in-quotation-marks"),
+                        word!("the-closing-quotation-mark-on-the-same"),
                     );
                     faults.push(RuleError::Unclosed { what, closing, at: at.into() });
                     rest = &rest[rest.find('\n').unwrap_or(rest.len())..];
@@ -166,7 +157,7 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
                     _ => {}
                 }
                 if depth > MAX_DEPTH {
-                    let (what, limit) = (("вложенность скобок", "levels of brackets"), MAX_DEPTH);
+                    let (what, limit) = (word!("levels-of-brackets"), MAX_DEPTH);
                     faults.push(RuleError::TooLarge { what, limit, at: at.into() });
                     return tokens;
                 }

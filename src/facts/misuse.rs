@@ -9,7 +9,7 @@ use super::program::Stratum;
 use super::relations::RelationId;
 use super::syntax::{Atom, Body, Expr, Functor, Item, Name, Role, Rule, Span};
 use super::unify::{names_of_body, names_of_expr};
-use crate::units::{Bilingual, bilingual};
+use crate::units::{Bilingual, said, word};
 
 fn misuse(what: Bilingual, help: Told, at: Span, faults: &mut Found) {
     faults.push(at, RuleError::Misuse { what, help, at: at.into() });
@@ -46,8 +46,8 @@ pub(super) fn counting_fact(rule: &Rule, faults: &mut Found) {
         return;
     }
     for at in rule.heads.iter().flat_map(|head| &head.args).filter_map(counter) {
-        let help = ("считать можно то, что выводит правило", "what a rule derives can be counted");
-        misuse(("autoinc() в факте", "autoinc() in a fact").into(), help, at, faults);
+        let help = word!("what-a-rule-derives-can-be-counted");
+        misuse(said!("autoinc-in-a-fact"), help, at, faults);
     }
 }
 
@@ -76,33 +76,11 @@ pub(super) fn plans(items: &[Item], declared: &Declared, strata: &[Stratum], fau
                 let mut sorted = order.clone();
                 sorted.sort_unstable();
                 if sorted != all {
-                    let what = bilingual!(
-                        ".plan {version}: порядок называет не все посылки правила по разу",
-                        ".plan {version}: the order does not name every premise of the rule once"
-                    );
-                    misuse(
-                        what,
-                        (
-                            "перечислите номера всех отношений тела, с 1",
-                            "list the numbers of all relations of the body, from 1",
-                        ),
-                        *at,
-                        faults,
-                    );
+                    let what = said!("plan-the-order-does-not-name-every", version);
+                    misuse(what, word!("list-the-numbers-of-all-relations-of"), *at, faults);
                 } else if *version >= versions {
-                    let what = bilingual!(
-                        ".plan {version}: у правила рекурсивных посылок {versions}",
-                        ".plan {version}: the rule has {versions} recursive premises"
-                    );
-                    misuse(
-                        what,
-                        (
-                            "версии нумеруются с 0, по одной на рекурсивную посылку",
-                            "versions are numbered from 0, one a recursive premise",
-                        ),
-                        *at,
-                        faults,
-                    );
+                    let what = said!("plan-the-rule-has-recursive-premises", version, versions);
+                    misuse(what, word!("versions-are-numbered-from-0-one-a"), *at, faults);
                 }
             }
         }
@@ -160,10 +138,7 @@ struct Inline<'a> {
     faults: &'a mut Found,
 }
 
-const EVALUATED: Told = (
-    "уберите inline: отношение будет выведено как все",
-    "remove inline: the relation will be derived as all are",
-);
+const EVALUATED: Told = word!("remove-inline-the-relation-will-be-derived");
 
 impl Inline<'_> {
     fn inlined(&self, atom: &Atom) -> Option<RelationId> {
@@ -175,11 +150,7 @@ impl Inline<'_> {
         for (relation, name) in self.own {
             let info = &self.declared.relations[relation.index()];
             if !info.inputs.is_empty() || !info.outputs.is_empty() || info.print_size {
-                let what = bilingual!(
-                    "inline-отношение «{}» читается из файла или выводится",
-                    "the inline relation “{}” is read from a file, or is an output",
-                    name.text
-                );
+                let what = said!("the-inline-relation-is-read-from-a", text = name.text);
                 misuse(what, EVALUATED, name.at, self.faults);
             }
         }
@@ -202,11 +173,7 @@ impl Inline<'_> {
         }
         for (relation, name) in self.own {
             if self.leads_back(*relation) {
-                let what = bilingual!(
-                    "inline-отношение «{}» читает само себя",
-                    "the inline relation “{}” reads itself",
-                    name.text
-                );
+                let what = said!("the-inline-relation-reads-itself", text = name.text);
                 misuse(what, EVALUATED, name.at, self.faults);
             }
         }
@@ -235,47 +202,22 @@ impl Inline<'_> {
         rule.heads.iter().flat_map(|head| &head.args).for_each(|arg| counted.extend(counter(arg)));
         each_compare(&rule.body, &mut |expr| counted.extend(counter(expr)));
         if is_inline {
-            found.extend(counted.iter().map(|at| {
-                (("autoinc() в inline-отношении", "autoinc() in an inline relation").into(), *at)
-            }));
+            found.extend(counted.iter().map(|at| (said!("autoinc-in-an-inline-relation"), *at)));
         }
         let mut visit = |atom: &Atom, is_negated: bool, is_counted: bool| {
             let Some(relation) = self.inlined(atom) else { return };
             let name = &atom.relation.text;
             if is_counted {
-                found.push((
-                    bilingual!(
-                        "счёт по inline-отношению «{name}»",
-                        "an aggregate over the inline relation “{name}”"
-                    ),
-                    atom.at,
-                ));
+                found.push((said!("an-aggregate-over-the-inline-relation", name), atom.at));
             }
             if let Some(at) = atom.args.iter().find_map(counter) {
-                found.push((
-                    bilingual!(
-                        "autoinc() среди аргументов inline-отношения «{name}»",
-                        "autoinc() among the arguments of the inline relation “{name}”"
-                    ),
-                    at,
-                ));
+                found.push((said!("autoinc-among-the-arguments-of-the-inline", name), at));
             }
             if is_negated && self.newly.contains(&relation) {
-                found.push((
-                    bilingual!(
-                        "отрицание inline-отношения «{name}» с переменными, которых нет в голове", "the negation of the inline relation “{name}” with variables that its head lacks"
-                    ),
-                    atom.at,
-                ));
+                found.push((said!("the-negation-of-the-inline-relation-with", name), atom.at));
             }
             if is_negated && atom.args.iter().any(has_any) {
-                found.push((
-                    bilingual!(
-                        "«_» в отрицании inline-отношения «{name}»",
-                        "“_” in the negation of the inline relation “{name}”"
-                    ),
-                    atom.at,
-                ));
+                found.push((said!("in-the-negation-of-the-inline-relation", name), atom.at));
             }
         };
         each_atom(&rule.body, &mut visit);

@@ -8,7 +8,7 @@ use super::program::{Bounds, Compare, Expr, Kind, Literal, NumberRange};
 use super::regular::{self, NoPattern};
 use super::syntax::{self, Comparison, Functor, Record, Span};
 use super::word::NIL;
-use crate::units::{bilingual, nearest_name};
+use crate::units::{nearest_name, said, word};
 
 impl Builder<'_> {
     /// Says what a pattern that stands in the text cannot do.
@@ -17,14 +17,8 @@ impl Builder<'_> {
         match regular::compile(pattern) {
             Ok(_) => {}
             Err(NoPattern::Backtracking) => {
-                let what = bilingual!(
-                    "«{pattern}»: поиск с возвратами",
-                    "“{pattern}”: a search that goes back"
-                );
-                let help = (
-                    "обойдитесь без \\1 и (?=…): они не решаются за линейное время",
-                    "do without \\1 and (?=…): they cannot be decided in linear time",
-                );
+                let what = said!("a-search-that-goes-back", pattern);
+                let help = word!("do-without-1-and-they-cannot-be");
                 self.fault(*at, RuleError::Unsupported { what, help, at: (*at).into() });
             }
             Err(NoPattern::Broken(why)) => {
@@ -130,11 +124,8 @@ impl Builder<'_> {
             }
             (Some(from), to) if from != to => {
                 let (from, to) = (self.declared.kind_text(from), self.declared.kind_text(to));
-                let what = bilingual!("as из {from} в {to}", "as from {from} to {to}");
-                let help = (
-                    "есть to_number, to_float и to_string",
-                    "there are to_number, to_float and to_string",
-                );
+                let what = said!("as-from-to", from, to);
+                let help = word!("there-are-to-number-to-float-and");
                 self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
                 None
             }

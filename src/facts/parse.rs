@@ -19,12 +19,9 @@ use super::read::{Furthest, Input, Read, list, long_name, many, name, number, si
 use super::syntax::{
     Atom, Body, Branch, Comparison, Component, Expr, Item, Name, Role, Rule, Span, Type,
 };
-use crate::units::{Source, bilingual};
+use crate::units::{Source, said, word};
 
-const FOREIGN: Told = (
-    "чужой код здесь не выполняется: посчитайте значения заранее и дайте их таблицей фактов",
-    "foreign code is not run here: compute the values beforehand, and give them as a table of facts",
-);
+const FOREIGN: Told = word!("foreign-code-is-not-run-here-compute-2");
 
 /// Components within components.
 const MAX_NESTED: usize = 16;
@@ -141,7 +138,7 @@ fn behind_braces(rest: &[Token]) -> Option<&[Token]> {
 }
 
 fn item(input: Input<'_>) -> Read<'_, Item> {
-    let Some(token) = input.rest.first() else { return input.fail(("правило", "a rule")) };
+    let Some(token) = input.rest.first() else { return input.fail(word!("a-rule")) };
     let behind = Input { rest: &input.rest[1..], ..input };
     match token.word {
         Word::Directive("decl") => relation(behind),
@@ -172,20 +169,14 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         Word::Directive("comp") => component(behind, 0),
         Word::Directive("init") => instance(behind),
         Word::Directive("override") => input.refuse(RuleError::Unsupported {
-            what: (".override вне компонента", ".override outside of a component").into(),
-            help: (
-                "замените правила внутри .comp, который наследует другой",
-                "replace rules within a .comp that inherits from another",
-            ),
+            what: said!("override-outside-of-a-component"),
+            help: word!("replace-rules-within-a-comp-that-inherits"),
             at: token.at.into(),
         }),
         Word::Directive(word) => input.refuse(RuleError::Unsupported {
             what: format!(".{word}").into(),
             help: match word {
-                "debug_delta" => (
-                    "витки вычисления не хранятся: уберите эту строку",
-                    "the rounds of evaluation are not kept: remove this line",
-                ),
+                "debug_delta" => word!("the-rounds-of-evaluation-are-not-kept"),
                 _ => FOREIGN,
             },
             at: token.at.into(),
@@ -226,30 +217,16 @@ fn relation(input: Input<'_>) -> Read<'_, Item> {
             .iter()
             .any(|known| *known == word.text || is_storage(known) && is_storage(&word.text))
         {
-            let what = bilingual!(
-                "свойство {} при том, что уже сказано",
-                "the property {} beside what is said already",
-                word.text
-            );
+            let what = said!("the-property-beside-what-is-said-already", text = word.text);
             return input.refuse(RuleError::Misuse {
                 what,
-                help: (
-                    "одно слово из btree, brie, eqrel, btree_delete и каждое другое по разу",
-                    "one word of btree, brie, eqrel, btree_delete, and each other once",
-                ),
+                help: word!("one-word-of-btree-brie-eqrel-btree"),
                 at,
             });
         }
         if word.text == "btree_delete" && columns.is_empty() {
-            let what = (
-                "btree_delete у отношения без столбцов",
-                "btree_delete of a relation without columns",
-            )
-                .into();
-            let help = (
-                "в нём нет двух строк, чтобы одна вытеснила другую",
-                "it has no two rows of which one could displace the other",
-            );
+            let what = word!("btree-delete-of-a-relation-without-columns").into();
+            let help = word!("it-has-no-two-rows-of-which");
             return input.refuse(RuleError::Misuse { what, help, at });
         }
         said.push(word.text);
@@ -280,11 +257,8 @@ fn domains(input: Input<'_>) -> Read<'_, Vec<Vec<Name>>> {
 // .comp Graph<N, M> : Base<N>, Other { … }
 fn component(input: Input<'_>, depth: usize) -> Read<'_, Item> {
     if depth > MAX_NESTED {
-        let (what, limit, at) = (
-            ("компонентов друг в друге", "components within one another"),
-            MAX_NESTED,
-            input.at().into(),
-        );
+        let (what, limit, at) =
+            (word!("components-within-one-another"), MAX_NESTED, input.at().into());
         return input.refuse(RuleError::TooLarge { what, limit, at });
     }
     let (input, head) = component_type(input)?;
@@ -295,7 +269,7 @@ fn component(input: Input<'_>, depth: usize) -> Read<'_, Item> {
     let (mut input, _) = sign("{")(input)?;
     let mut items = Vec::new();
     loop {
-        let Some(token) = input.rest.first() else { return input.fail(("«}»", "“}”")) };
+        let Some(token) = input.rest.first() else { return input.fail(word!("closing-brace")) };
         let behind = Input { rest: &input.rest[1..], ..input };
         let next;
         (input, next) = match token.word {
@@ -347,7 +321,7 @@ fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
     }
     // A qualifier is a bare word; a word with a bracket is the next fact.
     if matches!(rest.rest.first(), Some(Token { word: Word::Sign(_), .. })) {
-        return input.fail(("объявление или правило", "a declaration or a rule"));
+        return input.fail(word!("a-declaration-or-a-rule"));
     }
     let qualifier = match name.text.as_str() {
         "input" => Qualifier::Role(Role::Input),
@@ -361,17 +335,13 @@ fn qualifier(input: Input<'_>) -> Read<'_, (Name, Qualifier)> {
         }
         word => {
             let help = match word {
-                "btree_max" | "btree_min" | "btree_sum" | "btree_lattice" | "lattice" => (
-                    "оставить наибольшее можно вытеснением: r(x, a) <= r(x, b) :- a < b.",
-                    "the greatest can be kept by subsumption: r(x, a) <= r(x, b) :- a < b.",
-                ),
-                _ => (
-                    "уберите это слово: отношения хранятся одинаково",
-                    "remove this word: relations are all kept alike",
-                ),
+                "btree_max" | "btree_min" | "btree_sum" | "btree_lattice" | "lattice" => {
+                    word!("the-greatest-can-be-kept-by-subsumption")
+                }
+                _ => word!("remove-this-word-relations-are-all-kept"),
             };
             return input.refuse(RuleError::Unsupported {
-                what: bilingual!("свойство {word}", "the property {word}"),
+                what: said!("the-property", word),
                 help,
                 at: name.at.into(),
             });
@@ -416,7 +386,7 @@ fn type_item(input: Input<'_>) -> Read<'_, Item> {
     }
     let (rest, bases) = list(long_name, sign("|")).parse(rest)?;
     if bases.len() > 1 && sign_word == "<:" {
-        return rest.fail(("«=»", "“=”"));
+        return rest.fail(word!("sign-of-equality"));
     }
     Ok((rest, Item::Type { name: type_name, bases, is_union: sign_word == "=" }))
 }
@@ -508,11 +478,11 @@ fn truth(input: Input<'_>) -> Read<'_, Body> {
     let (rest, name) = name(input)?;
     match (name.text.as_str(), rest.rest.first().map(|token| &token.word)) {
         ("true" | "false", Some(Word::Sign("(" | "=" | "!=" | "<" | ">" | "<=" | ">="))) => {
-            input.fail(("посылка", "a premise"))
+            input.fail(word!("a-premise"))
         }
         ("true", _) => Ok((rest, Body::All(Vec::new()))),
         ("false", _) => Ok((rest, Body::Any(Vec::new()))),
-        _ => input.fail(("посылка", "a premise")),
+        _ => input.fail(word!("a-premise")),
     }
 }
 
@@ -522,7 +492,7 @@ fn matching(input: Input<'_>) -> Read<'_, Body> {
     let op = match name.text.as_str() {
         "match" => Comparison::Matches,
         "contains" => Comparison::Contains,
-        _ => return input.fail(("посылка", "a premise")),
+        _ => return input.fail(word!("a-premise")),
     };
     let (rest, _) = sign("(")(rest)?;
     let (rest, (left, right)) = separated_pair(expression, sign(","), expression).parse(rest)?;
@@ -534,7 +504,7 @@ fn matching(input: Input<'_>) -> Read<'_, Body> {
 pub(super) fn atom(input: Input<'_>) -> Read<'_, Atom> {
     let (rest, relation) = long_name(input)?;
     if functor(&relation.text).is_some() || aggregation(&relation.text).is_some() {
-        return input.fail(("отношение", "a relation"));
+        return input.fail(word!("a-relation"));
     }
     let (rest, _) = sign("(")(rest)?;
     let (rest, args) = opt(list(expression, sign(","))).parse(rest)?;

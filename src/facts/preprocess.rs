@@ -9,7 +9,7 @@ use super::decimal::Decimal;
 use super::fault::RuleError;
 use super::lex::{self, Token, Word};
 use super::syntax::Span;
-use crate::units::{Source, bilingual};
+use crate::units::{Source, said, word};
 
 /// What names stand for may name others; deeper or longer is taken for an endless definition.
 const MAX_DEPTH: usize = 32;
@@ -89,8 +89,8 @@ pub(super) fn expand(
     if !macros.open.is_empty() {
         let at = tokens.last().map(|token| token.at).unwrap_or_default().into();
         faults.push(RuleError::Unclosed {
-            what: ("#if", "#if"),
-            closing: ("#endif", "#endif"),
+            what: word!("directive-if"),
+            closing: word!("directive-endif"),
             at,
         });
     }
@@ -152,11 +152,8 @@ impl Macros<'_> {
                 out.push(Token { word: Word::Text(path), at });
             }
             _ => {
-                let what = bilingual!("препроцессор C: «#{line}»", "C’s preprocessor: “#{line}”");
-                let help = (
-                    "есть #define, #undef, #ifdef, #ifndef, #if, #elif, #else, #endif, #line и #include",
-                    "there are #define, #undef, #ifdef, #ifndef, #if, #elif, #else, #endif, #line and #include",
-                );
+                let what = said!("cs-preprocessor", line);
+                let help = word!("there-are-define-undef-ifdef-ifndef-if");
                 faults.push(RuleError::Unsupported { what, help, at: at.into() });
             }
         }
@@ -193,8 +190,8 @@ impl Macros<'_> {
         let value = condition::value(&plain).filter(|_| found.is_empty() && rest.is_empty());
         value.map_or_else(
             || {
-                let what = bilingual!("условие препроцессора «{}»", "the preprocessor’s condition “{}”", text.trim());
-                let help = ("есть числа, имена, defined, ! && || == != < <= > >= + - * / % и скобки", "there are numbers, names, defined, ! && || == != < <= > >= + - * / % and brackets");
+                let what = said!("the-preprocessors-condition", trim = text.trim());
+                let help = word!("there-are-numbers-names-defined-and-brackets");
                 faults.push(RuleError::Unsupported { what, help, at: at.into() });
                 false
             },
@@ -224,14 +221,10 @@ impl Macros<'_> {
         let words = lex::words(rest, file, &mut found);
         // Places within the definition are those of its line.
         if !found.is_empty() {
-            let what = (
-                "определение, в котором не всё – слова языка",
-                "a definition in which not all is words of the language",
-            )
-                .into();
+            let what = word!("a-definition-in-which-not-all-is").into();
             faults.push(RuleError::Unsupported {
                 what,
-                help: ("проверьте текст за именем", "check the text after the name"),
+                help: word!("check-the-text-after-the-name"),
                 at: at.into(),
             });
             return;
@@ -239,8 +232,7 @@ impl Macros<'_> {
         let Some((Token { word: Word::Name(name), .. }, mut body)) =
             words.split_first().map(|(first, rest)| (first.clone(), rest))
         else {
-            let (expected, found) =
-                (("имя", "a name").into(), ("#define без имени", "#define without a name").into());
+            let (expected, found) = (said!("a-name"), said!("define-without-a-name"));
             faults.push(RuleError::Syntax { expected, found, at: at.into() });
             return;
         };
@@ -289,11 +281,8 @@ impl Macros<'_> {
         self.words += known.body.len() + 1;
         if depth > MAX_DEPTH || self.words > MAX_WORDS {
             if self.words <= 2 * MAX_WORDS {
-                let (what, limit, at) = (
-                    ("подстановок #define", "substitutions of #define"),
-                    MAX_DEPTH,
-                    token.at.into(),
-                );
+                let (what, limit, at) =
+                    (word!("substitutions-of-define"), MAX_DEPTH, token.at.into());
                 faults.push(RuleError::TooLarge { what, limit, at });
                 self.words = 4 * MAX_WORDS;
             }

@@ -34,7 +34,7 @@ use super::relations::{Column, RelationId, RelationInfo};
 use super::strata::strata;
 use super::syntax::{self, Item, Rule, Span};
 use super::word::Words;
-use crate::units::{Source, bilingual};
+use crate::units::{Source, said, word};
 
 /// The text that facts hold for what a question calls something.
 pub type FirstName<'c> = &'c dyn Fn(&str) -> Option<String>;
@@ -110,14 +110,8 @@ impl Program {
             super::strata::reads(&clause.body, false, &mut |of, _, at| {
                 if declared.unfolded.contains(&of) {
                     let name = &declared.relations[of.index()].name;
-                    let what = bilingual!(
-                        "вопрос об inline-отношении «{name}»",
-                        "a question of the inline relation “{name}”"
-                    );
-                    let help = (
-                        "уберите inline: у такого отношения нет своих строк",
-                        "remove inline: such a relation has no rows of its own",
-                    );
+                    let what = said!("a-question-of-the-inline-relation", name);
+                    let help = word!("remove-inline-such-a-relation-has-no");
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                     all = false;
                 }
@@ -144,15 +138,8 @@ impl Program {
         let depends = clauses.iter().any(|clause| clause.counts_on())
             || infos.iter().any(|info| !info.choices.is_empty() || info.limit_size.is_some());
         if depends {
-            let what = (
-                "choice-domain, autoinc или limitsize в вопросе",
-                "choice-domain, autoinc or limitsize in a question",
-            )
-                .into();
-            let help = (
-                "поставьте такое отношение в программу: там оно выводится целиком",
-                "put such a relation into the program: there it is derived whole",
-            );
+            let what = word!("choice-domain-autoinc-or-limitsize-in-a").into();
+            let help = word!("put-such-a-relation-into-the-program");
             let at = asked.at;
             faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
             return None;
@@ -182,12 +169,8 @@ impl Program {
                 Item::Plan { .. } | Item::Pragma { .. } => {}
                 other => {
                     let at = other.at();
-                    let what =
-                        ("такая директива в вопросе", "such a directive in a question").into();
-                    let help = (
-                        "в вопросе годятся .decl, .type, правила и факты",
-                        ".decl, .type, rules and facts serve in a question",
-                    );
+                    let what = said!("such-a-directive-in-a-question");
+                    let help = word!("decl-type-rules-and-facts-serve-in");
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
             }
@@ -199,15 +182,8 @@ impl Program {
             for head in &rule.heads {
                 let of = declared.names.find(&head.relation.text);
                 if of.is_some_and(|of| of.index() < known) {
-                    let what = bilingual!(
-                        "правило вопроса для отношения программы «{}»",
-                        "a rule of the question for the program’s relation “{}”",
-                        head.relation.text
-                    );
-                    let help = (
-                        "объявите в вопросе своё отношение: .decl",
-                        "declare a relation of its own in the question: .decl",
-                    );
+                    let what = said!("a-rule-of-the-question-for-the", text = head.relation.text);
+                    let help = word!("declare-a-relation-of-its-own-in");
                     let at = head.at;
                     faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
                 }
@@ -337,7 +313,7 @@ fn question<'a>(input: Input<'a>, text: &str) -> Read<'a, syntax::Question> {
     let (rest, limit) = opt(preceded(clause_word("limit"), number)).parse(rest)?;
     let (rest, _) = opt(sign(".")).parse(rest)?;
     if !rest.rest.is_empty() {
-        return rest.fail(("конец вопроса", "the end of the question"));
+        return rest.fail(word!("the-end-of-the-question"));
     }
     let limit = match limit {
         None => None,
@@ -375,8 +351,8 @@ fn clause_word<'a>(word: &'static str) -> impl Fn(Input<'a>) -> Read<'a, ()> {
             Ok((Input { rest, ..input }, ()))
         }
         _ => input.fail(match word {
-            "order" => ("«.order»", "“.order”"),
-            _ => ("«.limit»", "“.limit”"),
+            "order" => word!("order-clause"),
+            _ => word!("limit-clause"),
         }),
     }
 }

@@ -9,18 +9,40 @@ use super::decimal::Decimal;
 use super::fault::{RuleError, Told};
 use super::lex::{Token, Word};
 use super::syntax::{Expr, Name, Span};
-use crate::units::{Bilingual, bilingual};
+use crate::units::{Bilingual, Language, said, told, word};
 
 /// Failed attempts allowed for one item; brackets within brackets could otherwise be tried without end.
 const MAX_ATTEMPTS: usize = 1_000_000;
 const ATTEMPTS_PER_WORD: usize = 100;
+
+/// What would have been read; put into words only where nothing else was read.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Due {
+    Said(Told),
+    Sign(&'static str),
+}
+
+impl From<Told> for Due {
+    fn from(said: Told) -> Self {
+        Self::Said(said)
+    }
+}
+
+impl Due {
+    fn say(self, language: Language) -> String {
+        match self {
+            Self::Said(said) => said.say(language).into_owned(),
+            Self::Sign(sign) => Bilingual::quoted(sign).say(language).to_owned(),
+        }
+    }
+}
 
 /// The failure that got furthest into the text; what stopped a reader is named there.
 #[derive(Default)]
 pub(super) struct Furthest {
     /// Words left to read where it happened; none before the first failure.
     pub(super) left: Option<usize>,
-    expected: Vec<Told>,
+    expected: Vec<Due>,
     fault: Option<RuleError>,
     attempts: usize,
 }
@@ -32,28 +54,27 @@ impl Furthest {
         }
         let end = Span { file, start: end as u32, end: end as u32 };
         let token = self.left.and_then(|left| words.get(words.len() - left));
-        let found =
-            token.map_or(("конец текста", "the end of the text").into(), |token| {
-                match &token.word {
-                    Word::Name(name) => Bilingual::quoted(name),
-                    Word::Number(number) | Word::Unsigned(number) => {
-                        bilingual!("число {number}", "the number {number}")
-                    }
-                    Word::Line(line) => Bilingual::quoted(&format!("#{}", line.trim_end())),
-                    Word::Decimal(number) => {
-                        bilingual!("число {}", "the number {}", Decimal::from_millionths(*number))
-                    }
-                    Word::Text(_) => ("текст в кавычках", "a text in quotation marks").into(),
-                    Word::Directive(word) => Bilingual::quoted(&format!(".{word}")),
-                    Word::Sign(sign) => Bilingual::quoted(sign),
-                }
-            });
+        let found = token.map_or(said!("the-end-of-the-text"), |token| match &token.word {
+            Word::Name(name) => Bilingual::quoted(name),
+            Word::Number(number) | Word::Unsigned(number) => {
+                said!("the-number", number)
+            }
+            Word::Line(line) => Bilingual::quoted(&format!("#{}", line.trim_end())),
+            Word::Decimal(number) => {
+                said!("the-number", number = Decimal::from_millionths(*number).to_string())
+            }
+            Word::Text(_) => said!("a-text-in-quotation-marks"),
+            Word::Directive(word) => Bilingual::quoted(&format!(".{word}")),
+            Word::Sign(sign) => Bilingual::quoted(sign),
+        });
         let expected = match self.expected.as_slice() {
-            [] => ("правило, факт или объявление", "a rule, a fact or a declaration").into(),
+            [] => said!("a-rule-a-fact-or-a-declaration"),
             all => {
-                let joined =
-                    |of: fn(&Told) -> &str, or| all.iter().map(of).collect::<Vec<_>>().join(or);
-                Bilingual::new(joined(|words| words.0, " или "), joined(|words| words.1, " or "))
+                let told = |language| {
+                    let all: Vec<_> = all.iter().map(|due| due.say(language)).collect();
+                    all.join(&told!(language, "or"))
+                };
+                Bilingual::both(told)
             }
         };
         RuleError::Syntax { expected, found, at: token.map_or(end, |token| token.at).into() }
@@ -70,7 +91,8 @@ pub(super) struct Input<'a> {
 }
 
 impl Input<'_> {
-    pub(super) fn fail<T>(self, expected: Told) -> Result<T, Err<Failure>> {
+    pub(super) fn fail<T>(self, expected: impl Into<Due>) -> Result<T, Err<Failure>> {
+        let expected = expected.into();
         let mut furthest = self.furthest.borrow_mut();
         let left = self.rest.len();
         furthest.attempts += 1;
@@ -85,8 +107,7 @@ impl Input<'_> {
         let limit = MAX_ATTEMPTS + self.length * ATTEMPTS_PER_WORD;
         if furthest.attempts > limit {
             drop(furthest);
-            let (what, at) =
-                (("попыток прочесть одно правило", "attempts to read one rule"), self.at().into());
+            let (what, at) = (word!("attempts-to-read-one-rule"), self.at().into());
             return self.refuse(RuleError::TooLarge { what, limit, at });
         }
         Err(Err::Error(Failure))
@@ -94,7 +115,7 @@ impl Input<'_> {
 
     /// A fault, unless another reading gets further.
     pub(super) fn doubt<T>(self, fault: RuleError) -> Result<T, Err<Failure>> {
-        let failure = self.fail(("значение", "a value"));
+        let failure = self.fail(word!("a-value"));
         let mut furthest = self.furthest.borrow_mut();
         if furthest.left == Some(self.rest.len()) {
             furthest.fault = Some(fault);
@@ -135,7 +156,7 @@ pub(super) fn name(input: Input<'_>) -> Read<'_, Name> {
         [Token { word: Word::Name(text), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, Name { text: text.clone(), at: *at }))
         }
-        _ => input.fail(("имя", "a name")),
+        _ => input.fail(word!("a-name")),
     }
 }
 
@@ -144,7 +165,7 @@ pub(super) fn number(input: Input<'_>) -> Read<'_, (i64, Span)> {
         [Token { word: Word::Number(value), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, (*value, *at)))
         }
-        _ => input.fail(("число", "a number")),
+        _ => input.fail(word!("a-number")),
     }
 }
 
@@ -153,7 +174,7 @@ pub(super) fn unsigned(input: Input<'_>) -> Read<'_, (i64, Span)> {
         [Token { word: Word::Unsigned(value), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, (*value, *at)))
         }
-        _ => input.fail(("число", "a number")),
+        _ => input.fail(word!("a-number")),
     }
 }
 
@@ -176,7 +197,7 @@ pub(super) fn decimal(input: Input<'_>) -> Read<'_, (i64, Span)> {
         [Token { word: Word::Decimal(value), at }, rest @ ..] => {
             Ok((Input { rest, ..input }, (*value, *at)))
         }
-        _ => input.fail(("число", "a number")),
+        _ => input.fail(word!("a-number")),
     }
 }
 
@@ -190,7 +211,7 @@ pub(super) fn text_word(input: Input<'_>) -> Read<'_, String> {
         [Token { word: Word::Text(text), .. }, rest @ ..] => {
             Ok((Input { rest, ..input }, text.clone()))
         }
-        _ => input.fail(("текст в кавычках", "a text in quotation marks")),
+        _ => input.fail(word!("a-text-in-quotation-marks")),
     }
 }
 
@@ -206,21 +227,11 @@ pub(super) fn sign<'a>(
 }
 
 /// The sign as a message names it.
-pub(super) fn quoted_sign(sign: &'static str) -> Told {
+fn quoted_sign(sign: &'static str) -> Due {
     match sign {
-        "(" => ("«(»", "“(”"),
-        ")" => ("«)»", "“)”"),
-        "," => ("«,»", "“,”"),
-        "." => ("«.»", "“.”"),
-        ":" => ("«:»", "“:”"),
-        ":-" => ("«:-»", "“:-”"),
-        ";" => ("«;»", "“;”"),
-        "=" | "!=" | "<" | "<=" | ">" | ">=" => ("сравнение", "a comparison"),
-        "+" | "-" | "*" | "/" | "%" | "^" => ("действие", "an operation"),
-        "{" => ("«{»", "“{”"),
-        "}" => ("«}»", "“}”"),
-        "!" => ("«!»", "“!”"),
-        other => (other, other),
+        "=" | "!=" | "<" | "<=" | ">" | ">=" => word!("a-comparison").into(),
+        "+" | "-" | "*" | "/" | "%" | "^" => word!("an-operation").into(),
+        other => Due::Sign(other),
     }
 }
 

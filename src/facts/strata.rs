@@ -11,7 +11,7 @@ use super::fault::{Found, RuleError};
 use super::program::{Clause, Literal, Stratum, Subsumption};
 use super::relations::RelationId;
 use super::syntax::Span;
-use crate::units::{Bilingual, InOrder as _};
+use crate::units::{Bilingual, InOrder as _, said, word};
 
 /// Relations in groups that depend on each other, each group after those it reads.
 pub(super) fn strata(
@@ -58,11 +58,8 @@ pub(super) fn strata(
             is_recursive |= group_of[relation.index()] == group_of[clause.head.index()];
         });
         if is_recursive && clause.counts_on() {
-            let what = ("autoinc() в рекурсивном правиле", "autoinc() in a recursive rule").into();
-            let help = (
-                "пронумеруйте готовое отношение отдельным правилом",
-                "number the finished relation in a rule of its own",
-            );
+            let what = said!("autoinc-in-a-recursive-rule");
+            let help = word!("number-the-finished-relation-in-a-rule");
             let at = clause.at;
             faults.push(at, RuleError::Unsupported { what, help, at: at.into() });
         }

@@ -4,6 +4,7 @@
 //! it, after each round of the evaluation, so that a recursive rule goes on from the best tuples only. Of a relation with
 //! `choice-domain k` the first tuple of each `k` stays that the evaluation finds; its order is fixed.
 
+use crate::units::word;
 use std::cell::{Ref, RefCell, RefMut};
 use std::collections::{HashMap, HashSet};
 
@@ -31,10 +32,7 @@ pub(super) fn rule(
     let relation = declared.relation(&goes.relation, faults)?;
     if declared.relation(&stays.relation, faults)? != relation {
         let what = format!("«{}» <= «{}»", goes.relation.text, stays.relation.text);
-        let help = (
-            "поглощают друг друга строки одного отношения",
-            "rows of one relation subsume each other",
-        );
+        let help = word!("rows-of-one-relation-subsume-each-other");
         faults.push(*at, RuleError::Unsupported { what: what.into(), help, at: (*at).into() });
         return None;
     }
@@ -48,10 +46,7 @@ pub(super) fn rule(
         }
     }
     if 2 * columns > MAX_COLUMNS {
-        let (what, limit) = (
-            ("столбцов отношения с поглощением", "columns of a relation with subsumption"),
-            MAX_COLUMNS / 2,
-        );
+        let (what, limit) = (word!("columns-of-a-relation-with-subsumption"), MAX_COLUMNS / 2);
         faults.push(*at, RuleError::TooLarge { what, limit, at: (*at).into() });
         return None;
     }

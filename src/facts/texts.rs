@@ -7,7 +7,7 @@ use super::program::{Clause, Program};
 use super::relations::RelationId;
 use super::syntax::Item;
 use super::{check, component, misuse, parse, strata};
-use crate::units::{Source, bilingual};
+use crate::units::{Source, said, word};
 
 impl Program {
     /// Reads one rule text.
@@ -27,14 +27,8 @@ impl Program {
         let items = all_items(sources, &mut faults);
         for item in &items {
             if let Item::Include { path, at } = item {
-                let what = bilingual!(
-                    ".include \"{path}\" в тексте, у которого нет папки",
-                    ".include \"{path}\" in a text that has no folder"
-                );
-                let help = (
-                    "дайте тексты правил вместе, одной программой",
-                    "give the rule texts together, as one program",
-                );
+                let what = said!("include-in-a-text-that-has-no", path);
+                let help = word!("give-the-rule-texts-together-as-one");
                 faults.push(*at, RuleError::Unsupported { what, help, at: (*at).into() });
             }
         }

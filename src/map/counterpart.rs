@@ -12,7 +12,7 @@ use std::hash::Hash;
 
 use crate::units::{
     AreaId, Bilingual, DoorId, Frame, Gather as _, InOrder as _, MapId, ObjectId, OrFrId,
-    ReplicaId, TypeId, name_key,
+    ReplicaId, TypeId, name_key, said, word,
 };
 
 use super::fault::{Fault, MapError, Record, Spot};
@@ -98,14 +98,9 @@ impl Counterparts {
             let spots = record.into_iter().map(Spot::of).collect();
             faults.push(Fault::new(MapError::OtherBuilding { what, how }, spots));
         };
-        let lacks = || {
-            Bilingual::new(
-                "здесь этого нет, а робот это знает",
-                "missing here, and known to the robot",
-            )
-        };
-        let knows_not = || Bilingual::new("робот этого не знает", "unknown to the robot");
-        let room = |area: &Area| Bilingual::named(("Помещение", "Room"), &area.name);
+        let lacks = || said!("missing-here-and-known-to-the-robot");
+        let knows_not = || said!("unknown-to-the-robot");
+        let room = |area: &Area| Bilingual::named(word!("room"), &area.name);
         let likes: BTreeMap<AreaId, AreaId> = self.areas.iter().map(|(o, k)| (*k, *o)).gather();
         for area in known.areas.values() {
             let Some(like) = likes.get(&area.id) else {
@@ -114,10 +109,7 @@ impl Counterparts {
             };
             let like = &other.areas[like];
             if !self.is_same_shape(known, other, area, like) {
-                let how = (
-                    "стены или проёмы не те, что знает робот",
-                    "its walls or openings are not those that the robot knows",
-                );
+                let how = word!("its-walls-or-openings-are-not-those");
                 fault(room(area), how.into(), Some(Record::Area(like.id)));
             }
         }
@@ -126,29 +118,23 @@ impl Counterparts {
         }
         let between: BTreeSet<DoorId> = mounted(other);
         for door in other.doors.values().filter(|door| between.contains(&door.id)) {
-            let named = Bilingual::named(("Дверь", "Door"), &door.name);
+            let named = Bilingual::named(word!("door"), &door.name);
             match self.doors.get(&door.id).map(|id| &known.doors[id]) {
                 None => fault(named, knows_not(), Some(Record::Door(door.id))),
                 Some(like) if !is_same_door(like, door) => {
-                    let how = (
-                        "вид, размеры или створки не те, что знает робот",
-                        "its kind, size or leaves are not those that the robot knows",
-                    );
+                    let how = word!("its-kind-size-or-leaves-are-not");
                     fault(named, how.into(), Some(Record::Door(door.id)));
                 }
                 Some(_) => {}
             }
         }
-        let floor = |map: &Map| Bilingual::named(("Карта", "Map"), &map.name);
+        let floor = |map: &Map| Bilingual::named(word!("map"), &map.name);
         for map in known.maps.values() {
             let like = self.maps.iter().find(|(_, like)| **like == map.id).map(|(id, _)| id);
             match like.map(|id| &other.maps[id]) {
                 None => fault(floor(map), lacks(), None),
                 Some(like) if !self.is_same_map(map, like) => {
-                    let how = (
-                        "помещения стоят или соединены не так, как знает робот",
-                        "its rooms stand or are joined otherwise than the robot knows",
-                    );
+                    let how = word!("its-rooms-stand-or-are-joined-otherwise");
                     fault(floor(map), how.into(), Some(Record::Map(like.id)));
                 }
                 Some(_) => {}
@@ -158,27 +144,23 @@ impl Counterparts {
             fault(floor(map), knows_not(), Some(Record::Map(map.id)));
         }
         if !self.has_same_storeys(known, other) {
-            let what = ("Этажи и лифты", "Storeys and lifts");
-            let how = ("не те, что знает робот", "are not those that the robot knows");
+            let what = word!("storeys-and-lifts");
+            let how = word!("are-not-those-that-the-robot-knows");
             fault(what.into(), how.into(), Some(Record::Domain));
         }
         if (&known.robot.start, &other.robot.start) != (&None, &None)
             && !self.is_same_place(start_of(known), start_of(other))
         {
-            let what = ("Место робота", "The robot's place");
-            let how =
-                ("начало не там, где знает робот", "it begins elsewhere than the robot knows");
+            let what = word!("the-robot-s-place");
+            let how = word!("it-begins-elsewhere-than-the-robot-knows");
             let record = start_of(other).map_or(Record::Robot, |place| Record::Place(place.id));
             fault(what.into(), how.into(), Some(record));
         }
         if (RobotProfile { start: None, ..known.robot.clone() })
             != (RobotProfile { start: None, ..other.robot.clone() })
         {
-            let what = ("Робот", "The robot");
-            let how = (
-                "размеры или скорость не те, что он знает",
-                "its size or speed are not those that it knows",
-            );
+            let what = word!("the-robot");
+            let how = word!("its-size-or-speed-are-not-those");
             fault(what.into(), how.into(), Some(Record::Robot));
         }
         faults

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::facts::{Program, Value};
 use crate::map::Profile;
-use crate::units::{Bilingual, InOrder as _, Source, bilingual};
+use crate::units::{Bilingual, InOrder as _, Piece, Source, said, word};
 
 /// What a number of the rule text counts, and what it may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,30 +50,20 @@ impl Unit {
         }
     }
 
-    fn words(self) -> (&'static str, &'static str) {
+    fn words(self) -> Piece {
         match self {
-            Self::Length => (
-                "длина в десятых долях миллиметра, от 0 до 1000000 (100 м)",
-                "a length in tenths of a millimetre, from 0 to 1000000 (100 m)",
-            ),
-            Self::Angle => (
-                "угол в сотых долях градуса, от 0 до 18000",
-                "an angle in hundredths of a degree, from 0 to 18000",
-            ),
+            Self::Length => word!("a-length-in-tenths-of-a-millimetre"),
+            Self::Angle => word!("an-angle-in-hundredths-of-a-degree"),
             Self::Share => {
-                ("доля в тысячных, от 0 до 1000", "a share in thousandths, from 0 to 1000")
+                word!("a-share-in-thousandths-from-0-to")
             }
-            Self::Times => ("число раз, от 1 до 1000", "a number of times, from 1 to 1000"),
-            Self::Solid => (
-                "телесный угол в миллионных долях стерадиана, от 0 до 12566370",
-                "a solid angle in millionths of a steradian, from 0 to 12566370",
-            ),
+            Self::Times => word!("a-number-of-times-from-1-to"),
+            Self::Solid => word!("a-solid-angle-in-millionths-of-a"),
         }
     }
 
     fn told(self) -> Bilingual {
-        let (russian, english) = self.words();
-        Bilingual::new(format!("это {russian}"), format!("it is {english}"))
+        said!("it-is", what = self.words())
     }
 }
 
@@ -375,33 +365,23 @@ pub(super) fn faults(program: &Program) -> Vec<ThresholdFault> {
             faults.push(ThresholdFault { message, help, text: (*source).clone(), at: *at });
         };
         if !["common", "surveyed", "detected"].contains(&profile.as_str()) {
-            let message = bilingual!("нет профиля «{profile}»", "there is no profile “{profile}”");
-            let help =
-                ("бывают common, surveyed и detected", "there are common, surveyed and detected");
+            let message = said!("there-is-no-profile", profile);
+            let help = word!("there-are-common-surveyed-and-detected");
             fault(message, help.into());
         }
         let Some(known) = KNOWN.iter().find(|known| known.name == name) else { continue };
         let (least, most) = known.unit.range();
         if !(least..=most).contains(value) {
-            let message = bilingual!(
-                "порог «{name}» не может быть {value}",
-                "the threshold “{name}” cannot be {value}"
-            );
+            let message = said!("the-threshold-cannot-be", name, value);
             fault(message, known.unit.told());
         }
         let same = |other: &&Limit<'_>| other.profile == *profile && other.name == *name;
         if let Some(first) = limits[..n].iter().find(same).filter(|first| first.value != *value) {
             let (line, _) = first.source.position(first.at.offset());
             let place = format!("{}:{line}", first.source.name());
-            let message = bilingual!(
-                "порог «{name}» назван дважды: {} и {value}",
-                "the threshold “{name}” is given twice: {} and {value}",
-                first.value
-            );
-            fault(
-                message,
-                bilingual!("оставьте один: здесь или {place}", "keep one: here or {place}"),
-            );
+            let message =
+                said!("the-threshold-is-given-twice-and", name, first = first.value, value);
+            fault(message, said!("keep-one-here-or", place));
         }
     }
     let reaches = program.relation("reach").map(|relation| program.written(relation));
@@ -409,10 +389,7 @@ pub(super) fn faults(program: &Program) -> Vec<ThresholdFault> {
         let [Value::Symbol(name), Value::Number(value)] = &values[..] else { continue };
         let (least, most) = Unit::Length.range();
         if !(least..=most).contains(value) {
-            let message = bilingual!(
-                "предел измерения «{name}» не может быть {value}",
-                "the limit of measuring “{name}” cannot be {value}"
-            );
+            let message = said!("the-limit-of-measuring-cannot-be", name, value);
             let help = Unit::Length.told();
             faults.push(ThresholdFault { message, help, text: source.clone(), at });
         }

@@ -22,7 +22,7 @@ use super::tables::Table;
 use super::trees::{HISTORY, REPLICAS, RUNS, Records, State, Trees, digests};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
-use crate::units::{Bilingual, Gather as _, InEnglish};
+use crate::units::{Bilingual, Gather as _, InEnglish, Piece, said, word};
 
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -79,10 +79,7 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
     }
     let mut report = FsckReport::default();
     if place == Place::Unmarked {
-        report.find(
-            Severity::Mendable,
-            ("файл FORMAT утрачен или испорчен", "the file FORMAT is lost or broken"),
-        );
+        report.find(Severity::Mendable, word!("the-file-format-is-lost-or-broken"));
     }
     check_snapshots(&*disk, dir, &mut report)?;
     let lock = lock(dir, PATIENCE);
@@ -91,9 +88,7 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
     let looked = match &lock {
         Ok(_) => Vault::look(Arc::clone(&disk), dir, had_trees, || match had_trees {
             true => shelf.open(),
-            false => Err(StoreError::Tables {
-                what: ("таблиц sled нет", "there are no tables of sled").into(),
-            }),
+            false => Err(StoreError::Tables { what: said!("there-are-no-tables-of-sled") }),
         }),
         Err(why) => {
             report.find(
@@ -114,12 +109,7 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
             report.records = opened.records;
             if opened.torn_bytes > 0 {
                 let bytes = opened.torn_bytes;
-                let text = Bilingual::new(
-                    format!("журнал обрывается: {bytes} байт не дописано"),
-                    format!(
-                        "the journal is cut off: {bytes} bytes of a record that was not finished"
-                    ),
-                );
+                let text = said!("the-journal-is-cut-off-bytes-of", bytes);
                 report.find(Severity::Mendable, text);
             }
             let faults =
@@ -128,22 +118,10 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
                 report.find(Severity::Mendable, fault.clone());
             }
             for name in &opened.marks_renewed {
-                report.find(
-                    Severity::Mendable,
-                    Bilingual::new(
-                        format!("файл {name} испорчен"),
-                        format!("the file {name} is broken"),
-                    ),
-                );
+                report.find(Severity::Mendable, said!("the-file-is-broken", name));
             }
             if lock.is_ok() && opened.replayed > 0 && opened.tables_rebuilt.is_none() {
-                report.find(
-                    Severity::Note,
-                    (
-                        "таблицы sled отстали от журнала",
-                        "the tables of sled are behind the journal",
-                    ),
-                );
+                report.find(Severity::Note, word!("the-tables-of-sled-are-behind-the"));
             }
             check_past(vault.past(), &mut report);
             if let Err(error) = check_records(&**vault.trees(), &mut report) {
@@ -151,12 +129,7 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
             }
             check_map(Store::over(vault, dir, None), &mut report);
             for kind in broken_derived(&*disk, dir)? {
-                let text = Bilingual::new(
-                    format!("выведенное из карты ({kind}) испорчено, будет выведено заново"),
-                    format!(
-                        "what was derived from the map ({kind}) is broken, and will be derived anew"
-                    ),
-                );
+                let text = said!("what-was-derived-from-the-map-is", kind);
                 report.find(Severity::Mendable, text);
             }
         }
@@ -197,10 +170,7 @@ fn check_records(trees: &dyn Records, report: &mut FsckReport) -> Result<()> {
             Err(error) => Bilingual::of(&error),
             Ok(version) => match key_of(table.columns(), &version.row) {
                 Some(own) if own.as_bytes() == key && table.fits(&version.row) => return,
-                _ => Bilingual::new(
-                    format!("таблица {}: запись стоит не под своим ключом", table.name()),
-                    format!("table {}: a record does not stand under its key", table.name()),
-                ),
+                _ => said!("table-a-record-does-not-stand-under", name = table.name()),
             },
         };
         report.find(Severity::Broken, fault);
@@ -223,13 +193,7 @@ fn check_records(trees: &dyn Records, report: &mut FsckReport) -> Result<()> {
         Ok(true)
     })?;
     if astray > 0 {
-        report.find(
-            Severity::Broken,
-            Bilingual::new(
-                format!("в указателе нет экземпляров: {astray}"),
-                format!("the index lacks replicas: {astray}"),
-            ),
-        );
+        report.find(Severity::Broken, said!("the-index-lacks-replicas", astray));
     }
     Ok(())
 }
@@ -241,18 +205,13 @@ fn check_map(store: Result<Store>, report: &mut FsckReport) {
         if let (Some(first), Some(last)) = (numbers.first(), numbers.last())
             && last - first + 1 != numbers.len() as u64
         {
-            report.find(
-                Severity::Broken,
-                ("в списке правок есть пропуски", "revisions are missing in the list"),
-            );
+            report.find(Severity::Broken, word!("revisions-are-missing-in-the-list"));
         }
         store.world()
     });
     match found {
         Err(error) => report.find(Severity::Broken, Bilingual::of(&error)),
-        Ok(None) => {
-            report.find(Severity::Note, ("карты в хранилище ещё нет", "the store holds no map yet"))
-        }
+        Ok(None) => report.find(Severity::Note, word!("the-store-holds-no-map-yet")),
         // The store kept faithfully what it was given: such a fault is the map's, not the store's.
         Ok(Some(world)) => {
             for fault in crate::map::check(&world).iter().filter(|f| !f.is_warning()) {
@@ -273,15 +232,15 @@ const LARGEST_BACKUP: u64 = 4 << 30;
 
 /// A backup says in its first bytes that it is one: what says something else is not read.
 fn check_size(backup: &Path) -> Result<()> {
-    let bad = |what: (&'static str, &'static str)| {
+    let bad = |what: Piece| {
         Err(StoreError::BadFile { path: backup.display().to_string(), what: what.into() })
     };
     let about = std::fs::metadata(backup).map_err(StoreError::io(doing::READ, backup))?;
     if !about.is_file() {
-        return bad(("это не файл", "it is no file"));
+        return bad(word!("it-is-no-file"));
     }
     if about.len() > LARGEST_BACKUP {
-        return bad(("больше 4 ГиБ", "it is larger than 4 GiB"));
+        return bad(word!("it-is-larger-than-4-gib"));
     }
     let mut head = Vec::new();
     File::open(backup)
@@ -290,7 +249,7 @@ fn check_size(backup: &Path) -> Result<()> {
     if format_stated(&head).is_some() {
         Ok(())
     } else {
-        bad(("начало файла испорчено", "the beginning of the file is broken"))
+        bad(word!("the-beginning-of-the-file-is-broken"))
     }
 }
 

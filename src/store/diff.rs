@@ -5,8 +5,8 @@ use std::fmt;
 
 use crate::map::World;
 use crate::units::{
-    AreaId, Bilingual, DoorId, Language, Lengths, MapId, ObjectId, OrFrId, PlaceId, ReplicaId,
-    TypeId, ZoneId,
+    AreaId, Bilingual, DoorId, Language, Lengths, MapId, ObjectId, OrFrId, Piece, PlaceId,
+    ReplicaId, TypeId, ZoneId, said, told, word,
 };
 
 use super::cell::{Cell, Key, Row};
@@ -52,14 +52,14 @@ impl Difference {
         let subject = self.subject.say(language);
         let told = match (&self.words, self.fate) {
             (Some(words), _) => words.say(language).to_owned(),
-            (None, Fate::Created) => language.pick("добавлено", "added").to_owned(),
-            (None, Fate::Deleted) => language.pick("удалено", "removed").to_owned(),
+            (None, Fate::Created) => told!(language, "record-added"),
+            (None, Fate::Deleted) => told!(language, "record-removed"),
             (None, Fate::Changed) => {
                 let change = |field: &FieldChange| {
-                    let (russian, english) = word(field.column);
+                    let word = word(field.column);
                     let [old, new] =
                         [&field.old, &field.new].map(|cell| told(field.column, cell, language));
-                    format!("{} {old} → {new}", language.pick(russian, english))
+                    format!("{} {old} → {new}", word.say(language))
                 };
                 self.fields.iter().map(change).collect::<Vec<_>>().join(", ")
             }
@@ -108,92 +108,82 @@ fn told(column: &str, cell: &Cell, language: Language) -> String {
 }
 
 /// How people call a column.
-fn word(column: &'static str) -> (&'static str, &'static str) {
-    match column {
-        "Name" => ("имя", "name"),
-        "NameEn" => ("английское имя", "English name"),
-        "Desc" => ("описание", "description"),
-        "X" => ("x", "x"),
-        "Y" => ("y", "y"),
-        "PosX" => ("сдвиг x", "shift x"),
-        "PosY" => ("сдвиг y", "shift y"),
-        "PosZ" => ("сдвиг z", "shift z"),
-        "PosA" => ("поворот", "turn"),
-        "Ang" => ("курс", "heading"),
-        "Kind" => ("вид", "kind"),
-        "Measure" => ("скорость или направление", "speed or direction"),
-        "Points" => ("углы", "corners"),
-        "Reason" => ("причина", "reason"),
-        "ReasonEn" => ("английская причина", "English reason"),
-        "StartsAt" => ("начало", "beginning"),
-        "EndsAt" => ("конец", "end"),
-        "Width" => ("ширина", "width"),
-        "Height" | "Hieght" | "Roof" => ("высота", "height"),
-        "SizeX" => ("размер x", "size x"),
-        "SizeY" => ("размер y", "size y"),
-        "SidePntr" | "BasePntr" | "RoofPntr" => ("проницаемость", "permeability"),
-        other => (other, other),
-    }
+fn word(column: &'static str) -> Bilingual {
+    let phrase = match column {
+        "Name" => word!("name"),
+        "NameEn" => word!("english-name"),
+        "X" => word!("column-x"),
+        "Y" => word!("column-y"),
+        "Desc" => word!("description"),
+        "PosX" => word!("shift-x"),
+        "PosY" => word!("shift-y"),
+        "PosZ" => word!("shift-z"),
+        "PosA" => word!("turn"),
+        "Ang" => word!("heading"),
+        "Kind" => word!("kind"),
+        "Measure" => word!("speed-or-direction"),
+        "Points" => word!("corners"),
+        "Reason" => word!("reason"),
+        "ReasonEn" => word!("english-reason"),
+        "StartsAt" => word!("beginning"),
+        "EndsAt" => word!("end"),
+        "Width" => word!("width"),
+        "Height" | "Hieght" | "Roof" => word!("height"),
+        "SizeX" => word!("size-x"),
+        "SizeY" => word!("size-y"),
+        "SidePntr" | "BasePntr" | "RoofPntr" => word!("permeability"),
+        other => return other.into(),
+    };
+    phrase.into()
 }
 
 /// How people call a record of a table, and the column by which its owner is found: none for what has a name
 /// of its own.
-fn noun(table: Table) -> ((&'static str, &'static str), Option<Table>) {
+fn noun(table: Table) -> (Bilingual, Option<Table>) {
     use Table as T;
-    match table {
-        T::OrFr => (("ортофрейм", "orthoframe"), None),
-        T::Object => (("объект", "object"), None),
-        T::Area => (("помещение", "room"), None),
-        T::AreaObjects => (("экземпляр", "replica"), None),
-        T::Map => (("карта", "map"), None),
-        T::Domain => (("домейн", "domain"), None),
-        T::Door => (("дверь", "door"), None),
-        T::Places => (("место", "place"), None),
-        T::Zones => (("зона", "zone"), None),
-        T::ZoneAreas => (("помещение зоны", "room of the zone"), Some(T::Zones)),
-        T::OrtFrmSides | T::SideNames => {
-            (("грань ортофрейма", "side of the orthoframe"), Some(T::OrFr))
-        }
-        T::OrtFrmProperties => {
-            (("свойство ортофрейма", "property of the orthoframe"), Some(T::OrFr))
-        }
-        T::OrtFrmSideProperties => {
-            (("свойство грани ортофрейма", "property of a side of the orthoframe"), Some(T::OrFr))
-        }
-        T::ObjectItems => (("часть объекта", "part of the object"), Some(T::Object)),
-        T::ObjectItemLinks => {
-            (("связь частей объекта", "link of parts of the object"), Some(T::Object))
-        }
-        T::ObjectDoors => (("дверь объекта", "door of the object"), Some(T::Object)),
-        T::ObjectProperties => (("свойство объекта", "property of the object"), Some(T::Object)),
-        T::AreaItems => (("часть помещения", "part of the room"), Some(T::Area)),
-        T::AreaItemLinks => {
-            (("связь частей помещения", "link of parts of the room"), Some(T::Area))
-        }
-        T::AreaDoors => (("дверь помещения", "door of the room"), Some(T::Area)),
-        T::AreaProperties => (("свойство помещения", "property of the room"), Some(T::Area)),
-        T::ReplicaProperties => {
-            (("свойство экземпляра", "property of the replica"), Some(T::AreaObjects))
-        }
-        T::ReplicaDoors => (("дверца экземпляра", "door of the replica"), Some(T::AreaObjects)),
-        T::DoorSides => (("створка двери", "side of the door"), Some(T::Door)),
-        T::DoorProperties => (("свойство двери", "property of the door"), Some(T::Door)),
-        T::MapItems => (("помещение карты", "room of the map"), Some(T::Map)),
-        T::MapItemLinks => (("связь помещений карты", "link of rooms of the map"), Some(T::Map)),
-        T::DomainMaps => (("карта домейна", "map of the domain"), Some(T::Domain)),
-        T::Lifts | T::LiftStops => (("лифт домейна", "lift of the domain"), Some(T::Domain)),
-        T::Robot => (("робот домейна", "robot of the domain"), Some(T::Domain)),
-        T::OrtFrmTypeList => (("тип ортофреймов", "type of orthoframes"), None),
-        T::OrtFrmShapeList => (("форма ортофреймов", "shape of orthoframes"), None),
-        T::OrtFrmSideTypeList => (("тип граней", "type of sides"), None),
-        T::ObjectTypeList => (("тип объектов", "type of objects"), None),
-        T::AreaTypeList => (("тип помещений", "type of rooms"), None),
-        T::MapTypeList => (("тип карт", "type of maps"), None),
-        T::DoorTypeList => (("тип дверей", "type of doors"), None),
-        T::TypeWords => (("слово типа", "word of the type"), None),
-        T::NameForms => (("словоформа имени", "form of the name"), None),
-        other => ((other.name(), other.name()), None),
-    }
+    let (noun, owner) = match table {
+        T::OrFr => (word!("orthoframe"), None),
+        T::Object => (word!("object"), None),
+        T::Area => (word!("room"), None),
+        T::AreaObjects => (word!("replica"), None),
+        T::Map => (word!("map"), None),
+        T::Domain => (word!("domain"), None),
+        T::Door => (word!("door"), None),
+        T::Places => (word!("place"), None),
+        T::Zones => (word!("zone"), None),
+        T::ZoneAreas => (word!("room-of-the-zone"), Some(T::Zones)),
+        T::OrtFrmSides | T::SideNames => (word!("side-of-the-orthoframe"), Some(T::OrFr)),
+        T::OrtFrmProperties => (word!("property-of-the-orthoframe"), Some(T::OrFr)),
+        T::OrtFrmSideProperties => (word!("property-of-a-side-of-the-orthoframe"), Some(T::OrFr)),
+        T::ObjectItems => (word!("part-of-the-object"), Some(T::Object)),
+        T::ObjectItemLinks => (word!("link-of-parts-of-the-object"), Some(T::Object)),
+        T::ObjectDoors => (word!("door-of-the-object"), Some(T::Object)),
+        T::ObjectProperties => (word!("property-of-the-object"), Some(T::Object)),
+        T::AreaItems => (word!("part-of-the-room"), Some(T::Area)),
+        T::AreaItemLinks => (word!("link-of-parts-of-the-room"), Some(T::Area)),
+        T::AreaDoors => (word!("door-of-the-room"), Some(T::Area)),
+        T::AreaProperties => (word!("property-of-the-room"), Some(T::Area)),
+        T::ReplicaProperties => (word!("property-of-the-replica"), Some(T::AreaObjects)),
+        T::ReplicaDoors => (word!("door-of-the-replica"), Some(T::AreaObjects)),
+        T::DoorSides => (word!("side-of-the-door"), Some(T::Door)),
+        T::DoorProperties => (word!("property-of-the-door"), Some(T::Door)),
+        T::MapItems => (word!("room-of-the-map"), Some(T::Map)),
+        T::MapItemLinks => (word!("link-of-rooms-of-the-map"), Some(T::Map)),
+        T::DomainMaps => (word!("map-of-the-domain"), Some(T::Domain)),
+        T::Lifts | T::LiftStops => (word!("lift-of-the-domain"), Some(T::Domain)),
+        T::Robot => (word!("robot-of-the-domain"), Some(T::Domain)),
+        T::OrtFrmTypeList => (word!("type-of-orthoframes"), None),
+        T::OrtFrmShapeList => (word!("shape-of-orthoframes"), None),
+        T::OrtFrmSideTypeList => (word!("type-of-sides"), None),
+        T::ObjectTypeList => (word!("type-of-objects"), None),
+        T::AreaTypeList => (word!("type-of-rooms"), None),
+        T::MapTypeList => (word!("type-of-maps"), None),
+        T::DoorTypeList => (word!("type-of-doors"), None),
+        T::TypeWords => (word!("word-of-the-type"), None),
+        T::NameForms => (word!("form-of-the-name"), None),
+        other => return (other.name().into(), None),
+    };
+    (noun.into(), owner)
 }
 
 /// Names of what bears an id, at two revisions: a thing that is gone still has its old name.
@@ -384,7 +374,7 @@ fn subject(table: Table, row: &Row, names: &Names<'_>) -> Bilingual {
         let rest: Vec<&Cell> = keys.map(|(_, cell)| cell).collect();
         let owner = names.get(owner, id(row.first()));
         return Bilingual::both(|language| {
-            let (noun, owner) = (language.pick(noun.0, noun.1), owner.say(language));
+            let (noun, owner) = (noun.say(language), owner.say(language));
             let rest: Vec<String> = rest.iter().map(|cell| cell.say(language)).collect();
             format!("{noun} {owner} {}", rest.join(" ")).trim_end().to_owned()
         });
@@ -393,7 +383,7 @@ fn subject(table: Table, row: &Row, names: &Names<'_>) -> Bilingual {
         Some((id, _)) => names.get(table, id),
         None => super::sheet::describe_key(table, row).into(),
     };
-    Bilingual::both(|language| format!("{} {}", language.pick(noun.0, noun.1), named.say(language)))
+    Bilingual::both(|language| format!("{} {}", noun.say(language), named.say(language)))
 }
 
 /// Movements and door states have words of their own.
@@ -442,13 +432,10 @@ fn words(
 
 fn door_words(door: &t::Door) -> Bilingual {
     match door.status.as_str() {
-        "open" if door.opening < 100.0 => Bilingual::new(
-            format!("открыта на {} %", door.opening),
-            format!("open by {} %", door.opening),
-        ),
-        "open" => ("открыта", "open").into(),
-        "closed" => ("закрыта", "closed").into(),
-        "locked" => ("заперта", "locked").into(),
+        "open" if door.opening < 100.0 => said!("open-by", opening = door.opening),
+        "open" => said!("open"),
+        "closed" => said!("closed"),
+        "locked" => said!("locked"),
         other => other.to_owned().into(),
     }
 }
@@ -463,62 +450,44 @@ fn replica_words(
     names: &Names<'_>,
 ) -> Option<Bilingual> {
     let area = |r: &t::AreaObjects| names.get(Table::Area, r.area_id);
-    let of_area = |words: (&str, &str), area: &Bilingual| {
-        Bilingual::both(|language| {
-            let (words, room) =
-                (language.pick(words.0, words.1), language.pick("помещение", "room"));
-            format!("{words} ({room} {})", area.say(language))
-        })
-    };
+    let of_area = |words: Piece, area: &Bilingual| said!("done-of-a-room", words, area);
     let (old, new) = match (old, new) {
         (Some(old), Some(new)) => (old, new),
-        (None, Some(new)) => return Some(of_area(("появился", "added"), &area(new))),
-        (Some(old), None) => return Some(of_area(("удалён", "removed"), &area(old))),
+        (None, Some(new)) => return Some(of_area(word!("added"), &area(new))),
+        (Some(old), None) => return Some(of_area(word!("removed"), &area(old))),
         (None, None) => return None,
     };
-    let from_to = |russian: &str, english: &str, old: &Bilingual, new: &Bilingual| {
+    let from_to = |what: Piece, old: &Bilingual, new: &Bilingual| {
         Bilingual::both(|language| {
-            let what = language.pick(russian, english);
-            format!("{what} {} → {}", old.say(language), new.say(language))
+            format!("{} {} → {}", what.say(language), old.say(language), new.say(language))
         })
     };
     let mut said = Vec::new();
     if old.area_id != new.area_id {
-        said.push(from_to("помещение", "room", &area(old), &area(new)));
+        said.push(from_to(word!("room"), &area(old), &area(new)));
     } else {
         let moved = (new.x - old.x).hypot(new.y - old.y).hypot(new.z - old.z);
         if moved > 0.0 {
-            said.push(Bilingual::both(|language| {
-                let moved = Lengths::said().told(moved, 2, language);
-                format!("{} {moved}", language.pick("передвинут на", "moved by"))
-            }));
+            said.push(said!("moved-by", moved));
         }
     }
     let turn = (new.ang - old.ang).rem_euclid(360.0);
     let turn = if turn > 180.0 { turn - 360.0 } else { turn };
     if turn.abs() > 0.0 {
-        let (russian, english) = if turn > 0.0 {
-            ("против часовой стрелки", "counter-clockwise")
-        } else {
-            ("по часовой стрелке", "clockwise")
-        };
-        let by = hundredths(turn.abs());
-        said.push(Bilingual::new(
-            format!("повёрнут на {by}° {russian}"),
-            format!("turned by {by}° {english}"),
-        ));
+        let way = if turn > 0.0 { word!("counter-clockwise") } else { word!("clockwise") };
+        said.push(said!("turned-by", by = hundredths(turn.abs()), way));
     }
     if old.object_id != new.object_id {
         let object = |r: &t::AreaObjects| names.get(Table::Object, r.object_id);
-        said.push(from_to("объект", "object", &object(old), &object(new)));
+        said.push(from_to(word!("object"), &object(old), &object(new)));
     }
     if old.move_prob != new.move_prob {
         let [old, new] = [old, new].map(|r| r.move_prob.to_string().into());
-        said.push(from_to("подвижность", "mobility", &old, &new));
+        said.push(from_to(word!("mobility"), &old, &new));
     }
     if (&old.name, &old.name_en) != (&new.name, &new.name_en) {
         let [old, new] = [old, new].map(|r| Bilingual::quoted(&r.name));
-        said.push(from_to("имя", "name", &old, &new));
+        said.push(from_to(word!("name"), &old, &new));
     }
     Some(Bilingual::list(&said))
 }

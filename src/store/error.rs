@@ -6,21 +6,22 @@ use crate::units::{Bilingual, is_input};
 
 /// What was to be done with a file.
 pub(crate) mod doing {
-    type Words = (&'static str, &'static str);
+    pub(crate) use crate::units::Piece as Words;
+    use crate::units::word;
 
-    pub(crate) const OPEN: Words = ("открыть", "open");
-    pub(crate) const LOCK: Words = ("запереть", "lock");
-    pub(crate) const LIST: Words = ("прочитать каталог", "read the directory");
-    pub(crate) const READ: Words = ("прочитать", "read");
-    pub(crate) const WRITE: Words = ("записать", "write");
-    pub(crate) const WRITE_DIR: Words = ("записать каталог", "write the directory");
-    pub(crate) const WRITE_SNAPSHOT: Words = ("записать снимок", "write the snapshot");
-    pub(crate) const FIND_ROOM: Words = ("найти место для", "find room for");
-    pub(crate) const REMOVE: Words = ("удалить", "remove");
-    pub(crate) const MAKE: Words = ("создать", "make");
-    pub(crate) const MAKE_DIR: Words = ("создать каталог", "make the directory");
-    pub(crate) const RENAME: Words = ("переименовать", "rename");
-    pub(crate) const CUT: Words = ("укоротить", "cut short");
+    pub(crate) const OPEN: Words = word!("open-2");
+    pub(crate) const LOCK: Words = word!("lock");
+    pub(crate) const LIST: Words = word!("read-the-directory");
+    pub(crate) const READ: Words = word!("read");
+    pub(crate) const WRITE: Words = word!("write");
+    pub(crate) const WRITE_DIR: Words = word!("write-the-directory");
+    pub(crate) const WRITE_SNAPSHOT: Words = word!("write-the-snapshot");
+    pub(crate) const FIND_ROOM: Words = word!("find-room-for");
+    pub(crate) const REMOVE: Words = word!("remove");
+    pub(crate) const MAKE: Words = word!("make");
+    pub(crate) const MAKE_DIR: Words = word!("make-the-directory");
+    pub(crate) const RENAME: Words = word!("rename");
+    pub(crate) const CUT: Words = word!("cut-short");
 }
 
 /// A store that cannot be opened, read or written, or that refuses what it was asked to keep.
@@ -129,7 +130,7 @@ impl StoreError {
     }
 
     pub(crate) fn io(
-        what: (&'static str, &'static str),
+        what: doing::Words,
         path: &Path,
     ) -> impl FnOnce(std::io::Error) -> Self + use<> {
         let path: PathBuf = path.to_owned();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::map::{Replica, World};
-use crate::units::{AreaId, Bilingual, Timestamp};
+use crate::units::{AreaId, Bilingual, Timestamp, said};
 
 use super::cell::Key;
 use super::changes::Changes;
@@ -265,7 +265,7 @@ impl Store {
     /// no world.
     pub fn import_sheet(&mut self, sheet: &Sheet, change: &Change) -> Result<ImportReport> {
         if sheet.world()?.is_none() {
-            let what = ("в записях нет ни одного Домейна", "the records hold no Domain").into();
+            let what = said!("the-records-hold-no-domain");
             return Err(StoreError::BrokenReference { table: Table::Domain.name(), what });
         }
         let edits = Edits::between(&self.reader().sheet()?, sheet);

@@ -12,6 +12,7 @@
 //!       aside/      broken parts, kept for whoever wants to look
 //! ```
 
+use crate::units::said;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -153,8 +154,7 @@ impl Shelf for SledShelf {
 
     fn set_aside(&mut self) -> Result<()> {
         if self.is_held {
-            let what =
-                ("sled ещё занят другой программой", "another program still holds sled").into();
+            let what = said!("another-program-still-holds-sled");
             return Err(StoreError::Tables { what });
         }
         let (from, aside) = (self.dir.join("sled"), self.dir.join("aside"));
@@ -173,9 +173,7 @@ impl Shelf for SledShelf {
     fn look(&self) -> Result<Arc<dyn Trees>> {
         match self.exists() {
             true => Ok(Arc::new(SledTrees::open_copy(&self.dir.join("sled"))?)),
-            false => Err(StoreError::Tables {
-                what: ("таблиц sled нет", "there are no tables of sled").into(),
-            }),
+            false => Err(StoreError::Tables { what: said!("there-are-no-tables-of-sled") }),
         }
     }
 }

@@ -12,6 +12,7 @@
 //!
 //! **Invariant**: what is given out has passed its checksum.
 
+use crate::units::{Piece, word};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -136,7 +137,7 @@ fn write_one(disk: &dyn Disk, path: &Path, file: u64, records: &Giving<'_>) -> R
     }
 }
 
-fn bad(path: &Path, what: (&'static str, &'static str)) -> StoreError {
+fn bad(path: &Path, what: Piece) -> StoreError {
     StoreError::BadFile { path: path.display().to_string(), what: what.into() }
 }
 
@@ -144,24 +145,24 @@ fn bad(path: &Path, what: (&'static str, &'static str)) -> StoreError {
 fn read_index(copy: &dyn Reading, path: &Path, file: u64) -> Result<(Vec<Block>, u64, u64)> {
     let io = || StoreError::io(doing::READ, path);
     let length = copy.length().map_err(io())?;
-    let short = || bad(path, ("файл записан не до конца", "the file was not written to its end"));
+    let short = || bad(path, word!("the-file-was-not-written-to-its"));
     let foot_at = length.checked_sub(FOOT as u64).ok_or_else(short)?;
     if copy.read_at(0, FILE_HEADER).map_err(io())? != file_header(RUN, file) {
-        return Err(bad(path, ("начало файла испорчено", "the beginning of the file is broken")));
+        return Err(bad(path, word!("the-beginning-of-the-file-is-broken")));
     }
     let foot = copy.read_at(foot_at, FOOT).map_err(io())?;
     let eight = |at: usize| u64::from_be_bytes(foot[at..at + 8].try_into().expect("eight bytes"));
     let four = |at: usize| u32::from_be_bytes(foot[at..at + 4].try_into().expect("four bytes"));
     if &foot[32..] != FOOT_MAGIC || crc32fast::hash(&foot[..28]) != four(28) {
-        return Err(bad(path, ("конец файла испорчен", "the end of the file is broken")));
+        return Err(bad(path, word!("the-end-of-the-file-is-broken")));
     }
     let (place, size, records) = (eight(0), eight(8), eight(20));
     if place.checked_add(size) != Some(foot_at) {
-        return Err(bad(path, ("конец файла испорчен", "the end of the file is broken")));
+        return Err(bad(path, word!("the-end-of-the-file-is-broken")));
     }
     let bytes = copy.read_at(place, size as usize).map_err(io())?;
     if crc32fast::hash(&bytes) != four(16) {
-        return Err(bad(path, ("указатель испорчен", "the index is broken")));
+        return Err(bad(path, word!("the-index-is-broken")));
     }
     let mut rest = Bytes(&bytes);
     let mut index = Vec::new();
@@ -173,7 +174,7 @@ fn read_index(copy: &dyn Reading, path: &Path, file: u64) -> Result<(Vec<Block>,
         }
         Some(())
     };
-    read().ok_or_else(|| bad(path, ("указатель испорчен", "the index is broken")))?;
+    read().ok_or_else(|| bad(path, word!("the-index-is-broken")))?;
     Ok((index, records, length))
 }
 
@@ -239,20 +240,11 @@ impl Run {
         let mut found = Vec::new();
         for (path, copy) in self.paths.iter().zip(&self.copies) {
             let Some(copy) = copy else {
-                found.push(bad(
-                    path,
-                    ("начало, конец или указатель испорчены", "beginning, end or index are broken"),
-                ));
+                found.push(bad(path, word!("beginning-end-or-index-are-broken")));
                 continue;
             };
             if !(0..self.index.len()).all(|n| self.read(&**copy, n).is_some()) {
-                found.push(bad(
-                    path,
-                    (
-                        "записи не совпадают с контрольной суммой",
-                        "the records do not match their checksum",
-                    ),
-                ));
+                found.push(bad(path, word!("the-records-do-not-match-their-checksum")));
             }
         }
         found
@@ -277,15 +269,7 @@ impl Run {
             }
             read
         });
-        let broken = || {
-            bad(
-                &self.paths[0],
-                (
-                    "записи не совпадают с контрольной суммой",
-                    "the records do not match their checksum",
-                ),
-            )
-        };
+        let broken = || bad(&self.paths[0], word!("the-records-do-not-match-their-checksum"));
         let bytes = bytes.ok_or_else(broken)?;
         let mut rest = Bytes(&bytes);
         let mut entries = Vec::new();

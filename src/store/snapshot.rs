@@ -5,6 +5,7 @@
 //! ```
 //! Written aside, synced, renamed, and the folder synced: a snapshot is whole or not there.
 
+use crate::units::{Piece, word};
 use std::path::Path;
 
 use super::disk::Disk;
@@ -19,28 +20,21 @@ const CHUNK_BYTES: usize = 1 << 20;
 
 /// Puts a snapshot's records into empty trees.
 pub(super) fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> Result<()> {
-    let bad = |what: (&'static str, &'static str)| StoreError::BadFile {
-        path: path.display().to_string(),
-        what: what.into(),
-    };
+    let bad =
+        |what: Piece| StoreError::BadFile { path: path.display().to_string(), what: what.into() };
     let bytes = disk.read(path).map_err(StoreError::io(doing::READ, path))?;
-    let found = scan(&bytes, SNAPSHOT).map_err(|_head: HeadError| {
-        bad(("начало файла испорчено", "the beginning of the file is broken"))
-    })?;
+    let found = scan(&bytes, SNAPSHOT)
+        .map_err(|_head: HeadError| bad(word!("the-beginning-of-the-file-is-broken")))?;
     let (Tail::Whole, Some((last, chunks))) = (&found.tail, found.frames.split_last()) else {
-        return Err(bad((
-            "файл испорчен или записан не до конца",
-            "the file is broken, or was not written to its end",
-        )));
+        return Err(bad(word!("the-file-is-broken-or-was-not")));
     };
     let payload = |(_, range): &(u64, std::ops::Range<usize>)| {
-        Payload::decode(&bytes[range.clone()])
-            .ok_or_else(|| bad(("кадр не читается", "a frame cannot be read")))
+        Payload::decode(&bytes[range.clone()]).ok_or_else(|| bad(word!("a-frame-cannot-be-read")))
     };
     // The last frame holds the digests alone: without it the snapshot is not whole.
     let end = payload(last)?;
     if last.0 != found.lsn || !end.ops.is_empty() {
-        return Err(bad(("файл записан не до конца", "the file was not written to its end")));
+        return Err(bad(word!("the-file-was-not-written-to-its")));
     }
     for chunk in chunks {
         trees.apply(payload(chunk)?.ops, &State::default())?;
@@ -58,11 +52,7 @@ pub(super) fn check_snapshot(disk: &dyn Disk, path: &Path) -> Result<State> {
     } else {
         Err(StoreError::BadFile {
             path: path.display().to_string(),
-            what: (
-                "записи не совпадают с контрольной суммой",
-                "the records do not match their checksum",
-            )
-                .into(),
+            what: word!("the-records-do-not-match-their-checksum").into(),
         })
     }
 }

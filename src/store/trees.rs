@@ -20,7 +20,7 @@ use super::error::{Result, StoreError};
 use super::frame::{Digest, Digests, Op, decode_digests, encode_digests};
 use super::tables::Table;
 use super::wall::{Fault, Pulse, Wall};
-use crate::units::Bilingual;
+use crate::units::{said, word};
 
 /// Old versions of records, by table, key and revision.
 pub(crate) const HISTORY: u8 = 200;
@@ -186,11 +186,7 @@ impl SledTrees {
         let name = dir.canonicalize().unwrap_or_else(|_| dir.to_owned());
         if left_behind().contains(&name) {
             return Err(StoreError::Tables {
-                what: (
-                    "sled оставлен до конца программы",
-                    "sled is left alone until the program ends",
-                )
-                    .into(),
+                what: word!("sled-is-left-alone-until-the-program").into(),
             });
         }
         let path = dir.to_owned();
@@ -266,12 +262,9 @@ fn copy_dir(from: &Path, to: &Path) -> io::Result<()> {
 
 impl Open {
     fn tree(&self, tree: u8) -> std::result::Result<&sled::Tree, Fault> {
-        self.trees.get(&tree).ok_or_else(|| {
-            Fault::new(Bilingual::new(
-                format!("нет таблицы с номером {tree}"),
-                format!("there is no table of the number {tree}"),
-            ))
-        })
+        self.trees
+            .get(&tree)
+            .ok_or_else(|| Fault::new(said!("there-is-no-table-of-the-number", tree)))
     }
 
     /// Many operations one after the other, the history first and the state last.
@@ -384,7 +377,7 @@ impl Trees for SledTrees {
         match self.wall.ask(|open, _| Ok(open.state.get(STATE_KEY)?))? {
             None => Ok(State::default()),
             Some(bytes) => decode_state(&bytes).ok_or_else(|| StoreError::Tables {
-                what: ("испорчена отметка о состоянии", "the mark of the state is broken").into(),
+                what: said!("the-mark-of-the-state-is-broken"),
             }),
         }
     }

@@ -10,7 +10,7 @@ use super::keep::Store;
 use super::reader::Reader;
 use super::sheet::describe_key;
 use super::tables::Table;
-use crate::units::Bilingual;
+use crate::units::{Bilingual, said};
 
 impl Store {
     /// Takes back the last change that is not taken back yet.
@@ -19,8 +19,7 @@ impl Store {
     /// [`StoreError::NothingToUndo`]; else as [`Store::apply`].
     pub fn undo(&mut self, change: &Change) -> Result<ImportReport> {
         let target = undoable(&self.revisions()?).last().copied();
-        let target = target
-            .ok_or(StoreError::NothingToUndo { what: ("отменять", "undo").into() })?;
+        let target = target.ok_or(StoreError::NothingToUndo { what: said!("undo") })?;
         self.revert(target, change, RevisionKind::Undo)
     }
 
@@ -30,8 +29,7 @@ impl Store {
     /// [`StoreError::NothingToUndo`] when the last change is no undo; else as [`Store::apply`].
     pub fn redo(&mut self, change: &Change) -> Result<ImportReport> {
         let target = redoable(&self.revisions()?).last().copied();
-        let target = target
-            .ok_or(StoreError::NothingToUndo { what: ("возвращать", "redo").into() })?;
+        let target = target.ok_or(StoreError::NothingToUndo { what: said!("redo") })?;
         self.revert(target, change, RevisionKind::Redo)
     }
 

@@ -12,7 +12,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, s
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use crate::units::Bilingual;
+use crate::units::{Bilingual, said, word};
 
 /// Why what is behind the wall did not do what it was asked.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -181,10 +181,10 @@ impl<S: 'static> Wall<S> {
         let job: Job<S> = Box::new(move |service| match service {
             Some(service) => job(service, &pulse, &answer),
             None => {
-                let _ = answer.send(Err(Fault::new(("закрыто", "it is closed"))));
+                let _ = answer.send(Err(Fault::new(word!("it-is-closed"))));
             }
         });
-        self.jobs.send(job).map_err(|_ended| Fault::new(("остановилось", "it has stopped")))
+        self.jobs.send(job).map_err(|_ended| Fault::new(word!("it-has-stopped")))
     }
 
     /// Waits for an answer as long as there is progress.
@@ -196,16 +196,13 @@ impl<S: 'static> Wall<S> {
                 Err(RecvTimeoutError::Timeout) if self.pulse.count() != before => {}
                 Err(RecvTimeoutError::Timeout) => {
                     let seconds = self.patience.as_secs_f64();
-                    let what = Bilingual::new(
-                        format!("нет ответа {seconds} с"),
-                        format!("no answer for {seconds} s"),
-                    );
+                    let what = said!("no-answer-for-s", seconds);
                     let fault = Fault { what, is_final: true };
                     self.fail(&fault);
                     return Err(fault);
                 }
                 Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Fault::new(("остановилось", "it has stopped")));
+                    return Err(Fault::new(word!("it-has-stopped")));
                 }
             }
         }
@@ -228,7 +225,7 @@ fn guarded<T>(call: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().cloned();
         let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&text| text.to_owned()));
-        Err(Fault::new(text.map_or(("сбой", "it failed").into(), Bilingual::from)))
+        Err(Fault::new(text.map_or(said!("it-failed"), Bilingual::from)))
     })
 }
 

@@ -17,7 +17,7 @@ use super::hint::{hint, perhaps};
 use super::phrases::phrases;
 use super::second::SecondNames;
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Document, Name, Parameter, Term};
-use crate::units::{Bilingual, Language, name_key};
+use crate::units::{Bilingual, Language, Piece, name_key, said, word};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 ///
@@ -69,15 +69,8 @@ impl Checker<'_> {
     fn kind(&mut self, name: &Name) -> Option<KindId> {
         let found = self.domain.kind(name.first());
         if found.is_none() {
-            let help = hint(&name.text, self.domain.names_of_kinds()).or_else(|| {
-                Some(
-                    (
-                        "объявите тип в разделе «Типы»",
-                        "declare the type under “Types:” (PDDL: :types)",
-                    )
-                        .into(),
-                )
-            });
+            let help = hint(&name.text, self.domain.names_of_kinds())
+                .or_else(|| Some(word!("declare-the-type-under-types-pddl-types").into()));
             self.faults.push(name.fault(|at| RuleError::UnknownType {
                 name: name.text.clone(),
                 help,
@@ -93,12 +86,7 @@ impl Checker<'_> {
         if kinds.is_empty() { vec![ANY_KIND] } else { kinds }
     }
 
-    pub(super) fn duplicate(
-        &mut self,
-        what: (&'static str, &'static str),
-        name: &Name,
-        first: Option<Place>,
-    ) {
+    pub(super) fn duplicate(&mut self, what: Piece, name: &Name, first: Option<Place>) {
         let (first, elsewhere) =
             first.map_or((None, Bilingual::new("", "")), |first| places(&first, name));
         let help = Bilingual::new(
@@ -114,7 +102,7 @@ impl Checker<'_> {
     fn schema(&mut self, action: &ActionText) {
         let name = &action.name;
         if let Some(first) = self.actions.get(&name.key()).cloned() {
-            self.duplicate(("действие", "the action"), name, Some(first));
+            self.duplicate(word!("the-action"), name, Some(first));
             return;
         }
         self.actions.insert(name.key(), name.at.clone());
@@ -154,7 +142,7 @@ impl Checker<'_> {
             if scope.insert(variable.key(), (number, kinds.clone())).is_some() {
                 let known = parameters.iter().find(|p| p.variable.key() == variable.key());
                 self.duplicate(
-                    ("параметр", "the parameter"),
+                    word!("the-parameter"),
                     variable,
                     known.map(|p| p.variable.at.clone()),
                 );
@@ -234,15 +222,8 @@ impl Checker<'_> {
     ) -> Option<SchemaAtom> {
         let name = &atom.predicate;
         let Some(predicate) = self.domain.predicate(name.first()) else {
-            let help = hint(&name.text, self.domain.names_of_predicates()).or_else(|| {
-                Some(
-                    (
-                        "объявите его в разделе «Предикаты»",
-                        "declare it under “Predicates:” (PDDL: :predicates)",
-                    )
-                        .into(),
-                )
-            });
+            let help = hint(&name.text, self.domain.names_of_predicates())
+                .or_else(|| Some(word!("declare-it-under-predicates-pddl-predicates").into()));
             let error = |at| RuleError::UnknownPredicate { name: name.text.clone(), help, at };
             self.faults.push(name.fault(error));
             let _ = self.terms(action, scope, atom);
@@ -314,9 +295,7 @@ impl Checker<'_> {
         let Some((index, declared)) = scope.get(&term.name.key()) else {
             let help =
                 hint(&term.name.text, action.parameters.iter().map(|p| p.variable.text.as_str()))
-                    .or_else(|| {
-                        Some(("добавьте её в «Параметры»", "add it to the parameters").into())
-                    });
+                    .or_else(|| Some(said!("add-it-to-the-parameters")));
             self.faults.push(term.name.fault(|at| RuleError::UndeclaredVariable {
                 action: action.name.text.clone(),
                 variable: term.name.text.clone(),
@@ -355,9 +334,8 @@ impl Checker<'_> {
         let marked = format!("?{}", name.key());
         let help = match action.parameters.iter().find(|p| p.variable.key() == marked) {
             Some(parameter) => Some(perhaps(&parameter.variable.text)),
-            None => hint(&name.text, known.values().map(|(name, _)| name.as_str())).or_else(|| {
-                Some(("объявите его в «:constants»", "declare it in :constants").into())
-            }),
+            None => hint(&name.text, known.values().map(|(name, _)| name.as_str()))
+                .or_else(|| Some(said!("declare-it-in-constants"))),
         };
         self.faults.push(name.fault(|at| RuleError::UnknownObject {
             name: name.text.clone(),
@@ -374,7 +352,7 @@ pub(super) fn places(first: &Place, second: &Name) -> (Option<SourceSpan>, Bilin
     }
     let (line, column) = first.position();
     let at = format!("{}:{line}:{column}", first.source.name());
-    (None, Bilingual::new(format!("; первый раз – {at}"), format!("; the first time at {at}")))
+    (None, said!("the-first-time-at", at))
 }
 
 /// An atom as a person would write it.

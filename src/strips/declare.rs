@@ -12,7 +12,7 @@ use super::error::RuleError;
 use super::fault::RuleFault;
 use super::hint::hint;
 use super::syntax::{Atom, Declaration, Document, Name, Parameter};
-use crate::units::{Bilingual, Language, name_key};
+use crate::units::{Bilingual, Language, name_key, said, word};
 
 impl Checker<'_> {
     /// The type tree. Types named only as parents or in parameters count as declared where nothing else is.
@@ -155,17 +155,12 @@ impl Checker<'_> {
                 name: name.text.clone(),
                 expected,
                 found: atom.args.len(),
-                help: Bilingual::new(
-                    format!("в «:functions» у «{}» аргументов {expected}", name.text),
-                    format!("in :functions “{}” has so many: {expected}", name.text),
-                ),
+                help: said!("in-functions-has-so-many", text = name.text, expected),
                 at,
             })),
             None => {
-                let help =
-                    hint(&name.text, self.functions.keys().map(String::as_str)).or_else(|| {
-                        Some(("объявите её в «:functions»", "declare it in :functions").into())
-                    });
+                let help = hint(&name.text, self.functions.keys().map(String::as_str))
+                    .or_else(|| Some(said!("declare-it-in-functions")));
                 self.faults.push(name.fault(|at| RuleError::UnknownFunction {
                     name: name.text.clone(),
                     help,
@@ -179,7 +174,7 @@ impl Checker<'_> {
         for signature in &document.predicates {
             if let Some(known) = self.domain.predicate(signature.name.first()) {
                 let first = self.domain.introduced.get(&known).cloned();
-                self.duplicate(("предикат", "the predicate"), &signature.name, first);
+                self.duplicate(word!("the-predicate"), &signature.name, first);
                 continue;
             }
             let args = signature.args.iter().map(|kinds| self.kind_set(kinds)).collect();

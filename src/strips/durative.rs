@@ -14,7 +14,7 @@ use super::expression::Expression;
 use super::fault::RuleFault;
 use super::pddl::{Reader, atom_key, renew};
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Name, Term};
-use crate::units::Source;
+use crate::units::{Source, word};
 
 /// When something is asked, or comes about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +28,7 @@ impl Reader<'_> {
     pub(super) fn durative_action(&mut self, section: &Expression<'_>) {
         let items = section.items();
         let Some(Expression::Word(name, span)) = items.get(1) else {
-            return self.expected(("имя действия", "the name of an action"), section.span());
+            return self.expected(word!("the-name-of-an-action"), section.span());
         };
         let name = Name::new(name, self.source, *span);
         let mut action = ActionText::new(name);
@@ -36,7 +36,7 @@ impl Reader<'_> {
         let mut rest = items[2..].iter();
         while let (Some(key), Some(body)) = (rest.next(), rest.next()) {
             let Expression::Word(word, span) = key else {
-                self.expected((":condition или :effect", ":condition or :effect"), key.span());
+                self.expected(word!("condition-or-effect"), key.span());
                 continue;
             };
             match word.to_lowercase().as_str() {
@@ -65,13 +65,7 @@ impl Reader<'_> {
             {
                 action.cost.extend(self.atom(list).map(CostTerm::Function));
             }
-            _ => self.expected(
-                (
-                    "(= ?duration число) или (= ?duration (функция …))",
-                    "(= ?duration number) or (= ?duration (function …))",
-                ),
-                body.span(),
-            ),
+            _ => self.expected(word!("duration-number-or-duration-function"), body.span()),
         }
     }
 
@@ -101,13 +95,7 @@ impl Reader<'_> {
                 items[1..].iter().for_each(|p| self.timed_conditions(p, action, later));
             }
             (None, None) if items.is_empty() => {}
-            _ => self.expected(
-                (
-                    "(at start …), (over all …) или (at end …)",
-                    "(at start …), (over all …) or (at end …)",
-                ),
-                part.span(),
-            ),
+            _ => self.expected(word!("at-start-over-all-or-at-end"), part.span()),
         }
     }
 
@@ -126,10 +114,7 @@ impl Reader<'_> {
             }
             (None, Some(what @ ("forall" | "when"))) => self.unsupported(what, part.head_span()),
             (None, None) if items.is_empty() => {}
-            _ => self.expected(
-                ("(at start …) или (at end …)", "(at start …) or (at end …)"),
-                part.span(),
-            ),
+            _ => self.expected(word!("at-start-or-at-end"), part.span()),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The name that may have been meant where one is not known.
 
-use crate::units::{Bilingual, name_key, nearest_name};
+use crate::units::{Bilingual, name_key, nearest_name, said};
 
 pub(super) fn hint<'a>(
     wanted: &str,
@@ -8,14 +8,7 @@ pub(super) fn hint<'a>(
 ) -> Option<Bilingual> {
     nearest_name(wanted, known).map(|near| {
         if looks_the_same(near, wanted) {
-            Bilingual::new(
-                format!(
-                    "может быть, «{near}»? буквы выглядят одинаково, но взяты из разных алфавитов"
-                ),
-                format!(
-                    "perhaps “{near}”? the letters look the same, but are of different alphabets"
-                ),
-            )
+            said!("perhaps-the-letters-look-the-same-but", near)
         } else {
             perhaps(near)
         }
@@ -23,7 +16,7 @@ pub(super) fn hint<'a>(
 }
 
 pub(super) fn perhaps(near: &str) -> Bilingual {
-    Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
+    said!("perhaps-2", near)
 }
 
 /// Whether two names differ only in the alphabet of letters that look alike, as В and B.

@@ -13,7 +13,7 @@ use super::syntax::{
     ActionText, Amount, Atom, Condition, ConditionalText, CostTerm, Declaration, DerivedText,
     Document, Name, Parameter, Signature, Term, none_of,
 };
-use crate::units::{Bilingual, Source, name_key};
+use crate::units::{Bilingual, Piece, Source, name_key, word};
 
 type Faults = Vec<RuleFault>;
 
@@ -57,7 +57,7 @@ pub(super) fn read(source: &Source, document: &mut Document, faults: &mut Faults
             ended = true;
             read(&mut reader, expression);
         } else {
-            reader.expected(("«(define …)»", "“(define …)”"), expression.span());
+            reader.expected(word!("define-form"), expression.span());
         }
     }
     if ended {
@@ -115,7 +115,7 @@ impl Reader<'_> {
             Some("problem" | ":length") => {}
             Some(":requirements") => self.requirements(&items[1..]),
             Some(other) => self.unsupported(other, section.head_span()),
-            None => self.expected(("раздел «(:…)»", "a section “(:…)”"), section.span()),
+            None => self.expected(word!("a-section"), section.span()),
         }
     }
 
@@ -170,23 +170,17 @@ impl Reader<'_> {
     fn action(&mut self, section: &Expression<'_>) {
         let items = section.items();
         let Some(Expression::Word(name, span)) = items.get(1) else {
-            return self.expected(("имя действия", "the name of an action"), section.span());
+            return self.expected(word!("the-name-of-an-action"), section.span());
         };
         let mut action = ActionText::new(Name::new(name, self.source, *span));
         let mut rest = items[2..].iter();
         while let Some(key) = rest.next() {
             let Expression::Word(word, span) = key else {
-                self.expected(
-                    (
-                        ":parameters, :precondition или :effect",
-                        ":parameters, :precondition or :effect",
-                    ),
-                    key.span(),
-                );
+                self.expected(word!("parameters-precondition-or-effect"), key.span());
                 continue;
             };
             let Some(body) = rest.next() else {
-                self.expected(("выражение в скобках", "an expression in brackets"), *span);
+                self.expected(word!("an-expression-in-brackets"), *span);
                 continue;
             };
             match word.to_lowercase().as_str() {
@@ -238,9 +232,9 @@ impl Reader<'_> {
             }
             Some(what @ ("imply" | "forall" | "exists")) => {
                 let form = match what {
-                    "imply" => ("(imply условие условие)", "(imply condition condition)"),
-                    "forall" => ("(forall (переменные) условие)", "(forall (variables) condition)"),
-                    _ => ("(exists (переменные) условие)", "(exists (variables) condition)"),
+                    "imply" => word!("imply-condition-condition"),
+                    "forall" => word!("forall-variables-condition"),
+                    _ => word!("exists-variables-condition"),
                 };
                 self.expected(form, part.span());
             }
@@ -253,7 +247,7 @@ impl Reader<'_> {
                 }
             }
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
-            None => self.expected(("условие в скобках", "a condition in brackets"), part.span()),
+            None => self.expected(word!("a-condition-in-brackets"), part.span()),
         }
     }
 
@@ -270,7 +264,7 @@ impl Reader<'_> {
             if name.text.starts_with('?') {
                 variables.push(Parameter { kinds, variable: name });
             } else {
-                let what = ("переменная вида «?x»", "a variable such as “?x”");
+                let what = word!("a-variable-such-as-x");
                 self.expected(what, name.at.span);
             }
         }
@@ -316,7 +310,7 @@ impl Reader<'_> {
     /// `(:derived (above ?x ?y - block) condition)`
     fn derived(&mut self, section: &Expression<'_>) {
         let [_, head, condition] = section.items() else {
-            let form = ("(:derived (имя ?x) условие)", "(:derived (name ?x) condition)");
+            let form = word!("derived-name-x-condition");
             return self.expected(form, section.span());
         };
         let Some((predicate, rest)) = self.call(head) else { return };
@@ -362,15 +356,12 @@ impl Reader<'_> {
                 self.unsupported(what, part.head_span());
             }
             Some("forall" | "when") => {
-                let form = (
-                    "(forall (переменные) эффект) или (when условие эффект)",
-                    "(forall (variables) effect) or (when condition effect)",
-                );
+                let form = word!("forall-variables-effect-or-when-condition-effect");
                 self.expected(form, part.span());
             }
             Some(_) => action.add.extend(self.atom(part)),
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
-            None => self.expected(("эффект в скобках", "an effect in brackets"), part.span()),
+            None => self.expected(word!("an-effect-in-brackets"), part.span()),
         }
     }
 
@@ -422,7 +413,7 @@ impl Reader<'_> {
                 Some((Name::new(name, self.source, *span), rest))
             }
             _ => {
-                self.expected(("«(имя аргументы…)»", "“(name arguments…)”"), expression.span());
+                self.expected(word!("name-arguments"), expression.span());
                 None
             }
         }
@@ -436,10 +427,7 @@ impl Reader<'_> {
                 is_variable: word.starts_with('?'),
             }),
             Expression::List(..) => {
-                self.expected(
-                    ("переменная или объект", "a variable or an object"),
-                    expression.span(),
-                );
+                self.expected(word!("a-variable-or-an-object"), expression.span());
                 None
             }
         }
@@ -454,7 +442,7 @@ impl Reader<'_> {
             match item {
                 Expression::Word("-", span) => {
                     let Some(kind) = items.next() else {
-                        self.expected(("тип после «-»", "a type after “-”"), *span);
+                        self.expected(word!("a-type-after"), *span);
                         break;
                     };
                     let words = match kind {
@@ -463,10 +451,7 @@ impl Reader<'_> {
                             &items[1..]
                         }
                         Expression::List(_, span) => {
-                            self.expected(
-                                ("тип или «(either …)»", "a type or “(either …)”"),
-                                *span,
-                            );
+                            self.expected(word!("a-type-or-either"), *span);
                             continue;
                         }
                     };
@@ -491,13 +476,13 @@ impl Reader<'_> {
                         declarations.push(Declaration { name, kinds: Vec::new() });
                     }
                 }
-                Expression::List(_, span) => self.expected(("имя", "a name"), *span),
+                Expression::List(_, span) => self.expected(word!("a-name"), *span),
             }
         }
         declarations
     }
 
-    pub(super) fn expected(&mut self, expected: (&'static str, &'static str), at: SourceSpan) {
+    pub(super) fn expected(&mut self, expected: Piece, at: SourceSpan) {
         let (expected, found) = (expected.into(), Bilingual::quoted(&excerpt(self.source, at)));
         self.faults.push(RuleFault::new(self.source, RuleError::Syntax { expected, found, at }));
     }
@@ -515,28 +500,16 @@ impl Reader<'_> {
     }
 }
 
-const COSTS_ALONE: (&str, &str) = (
-    "числа читаются лишь как стоимость: (increase (total-cost) …)",
-    "numbers are read as costs alone: (increase (total-cost) …)",
-);
+const COSTS_ALONE: Piece = word!("numbers-are-read-as-costs-alone-increase");
 
 /// How to say the same without what is not read.
-fn way_round(what: &str) -> (&'static str, &'static str) {
+fn way_round(what: &str) -> Piece {
     match what {
-        "preference" => (
-            "желания читаются в «:goal», по одному: (preference имя условие); под «forall» и в условиях действий их нет",
-            "preferences are read in :goal, one by one: (preference name condition); not under forall or in conditions of actions",
-        ),
-        ":constraints" => (
-            "условий на ход плана нет: запишите в «:goal» то, что нужно в конце",
-            "there are no constraints on the course of a plan: write into :goal what is needed in the end",
-        ),
+        "preference" => word!("preferences-are-read-in-goal-one-by"),
+        ":constraints" => word!("there-are-no-constraints-on-the-course"),
         "<" | "<=" | ">" | ">=" | "assign" | "decrease" | "scale-up" | "scale-down" => COSTS_ALONE,
         what if what.starts_with("(increase") => COSTS_ALONE,
-        _ => (
-            "читаются :adl :derived-predicates :action-costs и что в них входит",
-            ":adl, :derived-predicates, :action-costs and what they hold are read",
-        ),
+        _ => word!("adl-derived-predicates-action-costs-and-what"),
     }
 }
 

@@ -6,7 +6,7 @@ use super::fault::RuleFault;
 use super::hint::hint;
 use super::phrase::{Part, Phrase, Phrases};
 use super::syntax::{Document, Name};
-use crate::units::{Bilingual, name_key};
+use crate::units::{name_key, said};
 
 /// How the document says its predicates, actions and types in words.
 pub(super) fn phrases(
@@ -38,8 +38,7 @@ pub(super) fn phrases(
             (None, Some(schema)) => {
                 let names = schema.parameter_names.join(", ");
                 let written = format!("{}_({names})", schema.name);
-                let help =
-                    Bilingual::new(format!("запись: {written}"), format!("written: {written}"));
+                let help = said!("written", written);
                 (schema.parameters.len(), help)
             }
             (None, None) => {

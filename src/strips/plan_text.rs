@@ -12,7 +12,7 @@ use super::expression::{Expression, expressions};
 use super::fault::{RuleFault, RuleFaults};
 use super::load::read_source;
 use super::task::{OperatorId, Task};
-use crate::units::{Bilingual, InOrder as _, Source};
+use crate::units::{Bilingual, InOrder as _, Piece, Source, word};
 
 /// An action of a plan text and where it stands.
 #[derive(Debug, Clone)]
@@ -141,15 +141,10 @@ fn quoted(name: &str) -> String {
     }
 }
 
-const STEP: (&str, &str) = ("«шаг: (действие объект …)»", "“step: (action object …)”");
-const ACTION: (&str, &str) = ("«(действие объект …)»", "“(action object …)”");
+const STEP: Piece = word!("step-action-object");
+const ACTION: Piece = word!("action-object");
 
-fn syntax(
-    source: &Source,
-    expected: (&'static str, &'static str),
-    found: &str,
-    at: SourceSpan,
-) -> RuleFault {
+fn syntax(source: &Source, expected: Piece, found: &str, at: SourceSpan) -> RuleFault {
     let found = Bilingual::quoted(&found.chars().take(40).collect::<String>());
     RuleFault::new(source, RuleError::Syntax { expected: expected.into(), found, at })
 }

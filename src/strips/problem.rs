@@ -15,7 +15,7 @@ use super::other_names::OtherNames;
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::{PLAIN_FACT, conditions};
 use super::syntax::{Amount, Atom, Condition, Declaration, Document, Name};
-use crate::units::{OwnText, Source, name_key};
+use crate::units::{OwnText, Source, name_key, word};
 
 /// How a fact is known (SPEC P2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -227,10 +227,7 @@ impl Problem {
                 }
                 let objects = self.objects.iter().map(|object| object.name.as_str());
                 let help = hint(name, objects.chain(self.called.spelt())).or_else(|| {
-                    let known = (
-                        "карта не знает такого имени; нового назовите в «Объекты»",
-                        "the map knows no such name; name a new one under “Objects:”",
-                    );
+                    let known = word!("the-map-knows-no-such-name-name");
                     Some(known.into())
                 });
                 let name = name.clone();
@@ -436,7 +433,7 @@ fn weighed(document: &Document, faults: &mut Vec<RuleFault>) -> Vec<Preference> 
 }
 
 fn no_plain_fact(at: miette::SourceSpan) -> RuleError {
-    let found = ("отрицание, сравнение или условие", "a negation, a comparison or a condition");
+    let found = word!("a-negation-a-comparison-or-a-condition");
     RuleError::Syntax { expected: PLAIN_FACT.into(), found: found.into(), at }
 }
 
@@ -478,12 +475,8 @@ impl Statement {
     pub(super) fn predicate(&self, domain: &Domain) -> Result<PredicateId, RuleFault> {
         let name = &self.predicate;
         let Some(predicate) = domain.predicate(name) else {
-            let help = hint(name, domain.names_of_predicates()).or_else(|| {
-                Some(
-                    ("правила не упоминают такого предиката", "the rules have no such predicate")
-                        .into(),
-                )
-            });
+            let help = hint(name, domain.names_of_predicates())
+                .or_else(|| Some(word!("the-rules-have-no-such-predicate").into()));
             return Err(self.fault(|at| RuleError::UnknownPredicate {
                 name: name.clone(),
                 help,

@@ -359,10 +359,7 @@ impl Replay<'_> {
                     name: schema.name.clone(),
                     expected: schema.parameters.len(),
                     found: directive.args.len(),
-                    help: Bilingual::new(
-                        format!("запись: {written}"),
-                        format!("written: {written}"),
-                    ),
+                    help: said!("written", written),
                     at: directive.at,
                 })
                 .into());

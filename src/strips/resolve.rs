@@ -11,7 +11,7 @@ use super::hint::hint;
 use super::other_names::OtherNames;
 use super::problem::{Problem, Standing, Statement};
 use super::syntax::Atom;
-use crate::units::{Bilingual, Gather as _, name_key};
+use crate::units::{Gather as _, name_key, said, word};
 
 /// An object of a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -316,10 +316,7 @@ impl Resolver<'_> {
     fn unknown_object(&self, name: &str) -> impl FnOnce(miette::SourceSpan) -> RuleError + use<> {
         let known = self.things.iter().map(|thing| thing.name.as_str());
         let help = hint(name, known.chain(self.called.spelt())).or_else(|| {
-            let nobody = (
-                "ни факты, ни раздел «Объекты», ни карта не знают такого объекта",
-                "neither the facts, nor “Objects:” (PDDL: :objects), nor the map know such an object",
-            );
+            let nobody = word!("neither-the-facts-nor-objects-pddl-objects");
             Some(nobody.into())
         });
         let name = name.to_owned();
@@ -347,12 +344,8 @@ impl Resolver<'_> {
             None => {
                 let (word, name) = (&said.text, &term.name.text);
                 let known = self.domain.names_of_kinds();
-                let help = hint(word, known).unwrap_or_else(|| {
-                    Bilingual::new(
-                        format!("имя из нескольких слов пишут в кавычках: «{word} {name}»"),
-                        format!("a name of several words stands in quotes: «{word} {name}»"),
-                    )
-                });
+                let help = hint(word, known)
+                    .unwrap_or_else(|| said!("a-name-of-several-words-stands-in", word, name));
                 let (name, help) = (word.clone(), Some(help));
                 self.faults.push(said.fault(|at| RuleError::UnknownType { name, help, at }));
             }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::error::RuleError;
 use super::fault::RuleFault;
 use super::syntax::{ActionText, Atom, Condition, Document, Name, Parameter};
-use crate::units::{Bilingual, Language, name_key};
+use crate::units::{Language, name_key, said};
 
 /// What second names stand for, by their keys.
 #[derive(Debug, Clone, Default)]
@@ -46,11 +46,8 @@ impl SecondNames {
             let new = Second { text: own, language: text.language, of };
             let known = table.entry(name_key(&second.text)).or_insert_with(|| new.clone());
             if name_key(&known.of) != name_key(&new.of) {
-                let help = Bilingual::new(
-                    format!("так уже называется «{}»", known.of),
-                    format!("“{}” is called so already", known.of),
-                );
-                let (what, name) = (("второе имя", "the second name").into(), new.text);
+                let help = said!("is-called-so-already", known = known.of);
+                let (what, name) = (said!("the-second-name"), new.text);
                 let error = |at| RuleError::Duplicate { what, name, help, at, first: None };
                 faults.push(second.fault(error));
             }

@@ -12,7 +12,7 @@ use super::error::RuleError;
 use super::fault::RuleFault;
 use super::hint::{hint, looks_the_same, perhaps};
 use super::syntax::{ActionText, Atom, Condition, Document, Name, Use};
-use crate::units::{Bilingual, Gather as _, name_key};
+use crate::units::{Gather as _, name_key, said};
 
 /// Where a predicate is spoken of.
 struct Uses<'a> {
@@ -54,10 +54,7 @@ pub(super) fn slips(
             let error = |at| RuleError::UnknownPredicate { name: name.clone(), help, at };
             faults.push(uses.first.fault(error));
         } else if let Some(near) = near {
-            let help = Some(Bilingual::new(
-                format!("может быть, «{near}»? если нет, объявите предикаты в разделе «Предикаты»"),
-                format!("perhaps “{near}”? if not, declare the predicates under “Predicates:”"),
-            ));
+            let help = Some(said!("perhaps-if-not-declare-the-predicates-under", near));
             let action = action.name.text.clone();
             let error = |at| RuleError::LonelyPredicate { name: name.clone(), action, help, at };
             warnings.push(uses.first.fault(error));

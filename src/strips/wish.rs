@@ -6,6 +6,7 @@ use super::expression::Expression;
 use super::fault::RuleFault;
 use super::pddl::{Reader, excerpt};
 use super::syntax::{Amount, Condition, Name, PreferenceText};
+use crate::units::word;
 
 impl Reader<'_> {
     /// A part of the goal; a preference stands by itself, beside or within a conjunction.
@@ -19,7 +20,7 @@ impl Reader<'_> {
                 self.document.preferences.push(PreferenceText { name, condition });
             }
             (Some("preference"), _) => {
-                let form = ("(preference имя условие)", "(preference name condition)");
+                let form = word!("preference-name-condition");
                 self.expected(form, part.span());
             }
             _ => self.condition(part, false, goal),

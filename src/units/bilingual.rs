@@ -40,8 +40,9 @@ impl Bilingual {
 
     /// A thing with its kind: «комната «Кухня»», "room “Kitchen”".
     #[must_use]
-    pub fn named(kind: (&'static str, &'static str), name: &str) -> Self {
-        Self::new(format!("{} «{name}»", kind.0), format!("{} “{name}”", kind.1))
+    pub fn named(kind: impl Into<Self>, name: &str) -> Self {
+        let kind = kind.into();
+        Self::new(format!("{} «{name}»", kind.russian), format!("{} “{name}”", kind.english))
     }
 
     /// One after the other, with commas.

@@ -9,6 +9,7 @@
 //! A file is read when the first of its messages is told. A message that is missing or broken tells its name and is no reason
 //! to stop: a test of each crate ([`messages!`]) finds it before.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::{Arc, LazyLock, OnceLock};
 
@@ -109,8 +110,25 @@ impl Messages {
 
     /// The same in both; [`said!`] writes it shorter.
     #[must_use]
-    pub fn both(&self, message: &str, arguments: &[(&'static str, &dyn Value)]) -> Bilingual {
+    pub fn both(
+        &'static self,
+        message: &'static str,
+        arguments: &[(&'static str, &dyn Value)],
+    ) -> Bilingual {
+        if arguments.is_empty() {
+            let [russian, english] = [Language::Russian, Language::English]
+                .map(|language| self.plain(language, message));
+            return Bilingual::new(russian, english);
+        }
         Bilingual::both(|language| self.tell(language, message, arguments))
+    }
+
+    /// A message without arguments, as it stands in its file: a parser names what it missed much more often than anybody reads it.
+    fn plain(&'static self, language: Language, message: &'static str) -> Cow<'static, str> {
+        let bundle = self.bundle(language);
+        let pattern = bundle.get_message(message).and_then(|message| message.value());
+        let told = pattern.map(|pattern| bundle.format_pattern(pattern, None, &mut Vec::new()));
+        told.unwrap_or(Cow::Borrowed(message))
     }
 }
 
@@ -162,10 +180,13 @@ values! {
     u64: |it, _| *it;
     usize: |it, _| *it;
     f64: |it, _| *it;
+    i32: |it, _| *it;
+    std::sync::Arc<str>: |it, _| &**it;
     // It may be longer than what Fluent counts with.
     i64: |it, _| it.to_string();
     Cm: |it, language| it.say(language);
     Bilingual: |it, language| it.say(language);
+    Piece: |it, language| it.say(language);
     (&'static str, &'static str): |it, language| language.pick(it.0, it.1);
     Pose: |it, _| {
         let [x, y] = [it.at.x, it.at.y].map(|at| Lengths::said().number(at, 0));
@@ -199,6 +220,46 @@ impl Value for Vec<Bilingual> {
 impl<V: Value> Value for Option<V> {
     fn told(&self, language: Language) -> Option<Argument<'_>> {
         self.as_ref().map_or(Some(FluentValue::None), |it| it.told(language))
+    }
+}
+
+/// A message without arguments, by its name: a word of a table, told where it is needed. [`word!`] makes one.
+#[derive(Clone, Copy)]
+pub struct Piece {
+    messages: fn() -> &'static Messages,
+    name: &'static str,
+}
+
+impl Piece {
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(messages: fn() -> &'static Messages, name: &'static str) -> Self {
+        Self { messages, name }
+    }
+
+    #[must_use]
+    pub fn say(self, language: Language) -> Cow<'static, str> {
+        (self.messages)().plain(language, self.name)
+    }
+}
+
+impl PartialEq for Piece {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Piece {}
+
+impl fmt::Debug for Piece {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl From<Piece> for Bilingual {
+    fn from(piece: Piece) -> Self {
+        (piece.messages)().both(piece.name, &[])
     }
 }
 
@@ -389,5 +450,14 @@ macro_rules! told {
             $message,
             &[$((stringify!($name), $crate::said!(@ $name $(= $value)?))),*],
         )
+    };
+}
+
+/// A message of this crate that has no arguments, as a constant of the type `Piece`.
+#[macro_export]
+#[allow(clippy::crate_in_macro_def, reason = "the messages are those of the crate that tells them")]
+macro_rules! word {
+    ($message:literal) => {
+        $crate::Piece::new(|| &crate::MESSAGES, $message)
     };
 }

@@ -79,3 +79,27 @@ corridor-junction-disagrees = junction { $vertex }: here it is “{ $said }”, 
 corridor-way-disagrees = junction { $vertex }: the way { $way } leads from here to “{ $said }”, and by another corridor’s description to “{ $seen }”
     .help = correct one of the descriptions
     .at = this way
+
+# Words and phrases of which what is said is put together.
+
+a-dead-end = a dead end
+perhaps-2 = perhaps “{ $near }”?
+the-description-has-no-entrance = the description has no entrance
+there-are-entrances = there are entrances: { $known }
+is-on-on-a-lift-is-needed = “{ $from }” is on “{ $floor }”, “{ $to }” on “{ $other }”: a lift is needed
+their-corridors-are-not-joined = their corridors are not joined
+in-the-first-line-format-1 = in the first line: format = 1
+a-number-from-0-to-1000000 = a number from 0 to 1000000
+tables-corridor = tables [[corridor]]
+true-or-false = true or false
+an-entry-like-vertex-0 = an entry like {"{"} vertex = 0, … {"}"}
+a-positive-number-of-metres = a positive number of metres
+the-vertexs-number-such-as-vertex-7 = the vertex’s number, such as vertex = 7
+an-integer-from-0-to-4294967295 = an integer from 0 to 4294967295
+on-which-side-the-door-is-side = on which side the door is: side = "right" or "left"
+which-room-is-behind-the-door-room = which room is behind the door: room = "201"
+the-kind-of-the-junction-junction-branch = the kind of the junction: junction = "branch-right"
+here-there-may-be = here there may be: { $known }
+a-list = a list [ … ]
+a-text-in-quotation-marks-not-empty = a text in quotation marks, not empty
+an-integer = an integer

@@ -26,3 +26,13 @@ vehicle-nowhere = the robot does not know where it is: { $why }
     .help = say where it stands (--from), or bring it to where there is more to see
 vehicle-restless = the robot saw the same thing otherwise each time, { $times } times
     .help = see what the robot says that it saw
+
+# Words and phrases of which what is said is put together.
+
+a-line-that-is-too-long = a line that is too long
+it-answers-order-and-order-was-given = it answers order { $of }, and order { $id } was given
+the-map-has-no = the map has no “{ $name }”
+it-is-no-answer-to-such-an = it is no answer to such an order
+a-quotation-mark-is-not-closed = a quotation mark is not closed
+a-command-is-wanted-behind-cmd = a command is wanted behind cmd:
+tcp-host-port-is-wanted = tcp:HOST:PORT is wanted

@@ -117,3 +117,85 @@ strips-no-price = the problem does not say what { $action }{ $more ->
        *[other] {" "}(and { $more } more)
     } costs: it is taken to be free
     .help = give its value in :init: (= (function object …) number)
+
+# Words and phrases of which what is said is put together.
+
+declare-the-type-under-types-pddl-types = declare the type under “Types:” (PDDL: :types)
+the-action = the action
+the-parameter = the parameter
+declare-it-under-predicates-pddl-predicates = declare it under “Predicates:” (PDDL: :predicates)
+add-it-to-the-parameters = add it to the parameters
+declare-it-in-constants = declare it in :constants
+the-first-time-at = ; the first time at { $at }
+in-functions-has-so-many = in :functions “{ $text }” has so many: { $expected }
+declare-it-in-functions = declare it in :functions
+the-predicate = the predicate
+the-name-of-an-action = the name of an action
+condition-or-effect = :condition or :effect
+duration-number-or-duration-function = (= ?duration number) or (= ?duration (function …))
+at-start-over-all-or-at-end = (at start …), (over all …) or (at end …)
+at-start-or-at-end = (at start …) or (at end …)
+perhaps-the-letters-look-the-same-but = perhaps “{ $near }”? the letters look the same, but are of different alphabets
+perhaps-2 = perhaps “{ $near }”?
+a-section = a section “(:…)”
+parameters-precondition-or-effect = :parameters, :precondition or :effect
+an-expression-in-brackets = an expression in brackets
+imply-condition-condition = (imply condition condition)
+forall-variables-condition = (forall (variables) condition)
+exists-variables-condition = (exists (variables) condition)
+a-condition-in-brackets = a condition in brackets
+a-variable-such-as-x = a variable such as “?x”
+derived-name-x-condition = (:derived (name ?x) condition)
+forall-variables-effect-or-when-condition-effect = (forall (variables) effect) or (when condition effect)
+an-effect-in-brackets = an effect in brackets
+name-arguments = “(name arguments…)”
+a-variable-or-an-object = a variable or an object
+a-type-after = a type after “-”
+a-type-or-either = a type or “(either …)”
+a-name = a name
+numbers-are-read-as-costs-alone-increase = numbers are read as costs alone: (increase (total-cost) …)
+preferences-are-read-in-goal-one-by = preferences are read in :goal, one by one: (preference name condition); not under forall or in conditions of actions
+there-are-no-constraints-on-the-course = there are no constraints on the course of a plan: write into :goal what is needed in the end
+adl-derived-predicates-action-costs-and-what = :adl, :derived-predicates, :action-costs and what they hold are read
+written = written: { $written }
+step-action-object = “step: (action object …)”
+action-object = “(action object …)”
+the-map-knows-no-such-name-name = the map knows no such name; name a new one under “Objects:”
+a-negation-a-comparison-or-a-condition = a negation, a comparison or a condition
+the-rules-have-no-such-predicate = the rules have no such predicate
+neither-the-facts-nor-objects-pddl-objects = neither the facts, nor “Objects:” (PDDL: :objects), nor the map know such an object
+a-name-of-several-words-stands-in = a name of several words stands in quotes: «{ $word } { $name }»
+no-more-than-fifty-brackets-within-each = no more than fifty brackets within each other
+a-variable-such-as-x-or = a variable such as “?x” or “)”
+then = “THEN”
+if-and-a-condition = “IF” and a condition
+a-fact-without-not-what-ceases-to = a fact without “NOT”; what ceases to hold is written under “Effect-:”
+the-end-of-the-file = the end of the file
+sections-action-facts-assumptions-initial-goal-preferably = sections: Action, Facts, Assumptions, Initial, Goal, Preferably, Types, Predicates, Objects, Include, Map, In English
+parameters-precondition-effect-or-effect = “Parameters:”, “Precondition:”, “Effect+:” or “Effect-:”
+action-name-before-its-parts = “Action: name” before its parts
+or-the-next-fact = “)” or the next fact
+the-name-of-a-preference = the name of a preference
+a-type = a type
+a-variable-such-as-x-after-the = a variable such as “?x” after the type
+or = “=” or “≠”
+after-the-name-of-the-predicate = “(” after the name of the predicate
+the-name-of-a-predicate = the name of a predicate
+or-2 = “,” or “)”
+an-objects-name-or-a-variable = an object’s name or a variable
+the-name-of-a-type = the name of a type
+the-type-of-an-argument-or = the type of an argument or “)”
+the-name-of-a-predicate-an-action = the name of a predicate, an action or a type
+and-words-in-quotation-marks = “=” and words in quotation marks
+a-second-name = a second name
+words-in-quotation-marks = words in quotation marks
+a-number = a number
+the-name-of-a-file = the name of a file
+a-section-action-facts-and-so-on = a section: “Action:”, “Facts:” and so on
+a-fact-such-as-name-object = a fact such as “NAME_(object, …)”
+is-called-so-already = “{ $known }” is called so already
+the-second-name = the second name
+perhaps-if-not-declare-the-predicates-under = perhaps “{ $near }”? if not, declare the predicates under “Predicates:”
+preference-name-condition = (preference name condition)
+define-form = “(define …)”
+opening-bracket = “(”

@@ -79,3 +79,27 @@ corridor-junction-disagrees = соединение { $vertex }: здесь ск�
 corridor-way-disagrees = соединение { $vertex }: путь { $way } ведёт отсюда к «{ $said }», а по описанию другого коридора – к «{ $seen }»
     .help = исправьте одно из описаний
     .at = этот путь
+
+# Слова и обороты, из которых складывается сказанное.
+
+a-dead-end = тупик
+perhaps-2 = может быть, «{ $near }»?
+the-description-has-no-entrance = в описании нет ни одного входа
+there-are-entrances = есть входы: { $known }
+is-on-on-a-lift-is-needed = «{ $from }» – на «{ $floor }», «{ $to }» – на «{ $other }»: нужен лифт
+their-corridors-are-not-joined = их коридоры не соединены
+in-the-first-line-format-1 = первой строкой: format = 1
+a-number-from-0-to-1000000 = число от 0 до 1000000
+tables-corridor = таблицы [[corridor]]
+true-or-false = true или false
+an-entry-like-vertex-0 = запись вида {"{"} vertex = 0, … {"}"}
+a-positive-number-of-metres = положительное число метров
+the-vertexs-number-such-as-vertex-7 = номер вершины, например vertex = 7
+an-integer-from-0-to-4294967295 = целое число от 0 до 4294967295
+on-which-side-the-door-is-side = с какой стороны дверь: side = "right" или "left"
+which-room-is-behind-the-door-room = какое помещение за дверью: room = "201"
+the-kind-of-the-junction-junction-branch = вид соединения: junction = "branch-right"
+here-there-may-be = здесь бывают: { $known }
+a-list = список [ … ]
+a-text-in-quotation-marks-not-empty = непустая строка в кавычках
+an-integer = целое число

@@ -26,3 +26,13 @@ vehicle-nowhere = робот не знает, где он: { $why }
     .help = скажите, где он стоит (--from), или отвезите его туда, где больше видно
 vehicle-restless = робот каждый раз видит мир иначе: одно и то же – по-разному, { $times } раз
     .help = проверьте, что робот сообщает о виденном
+
+# Слова и обороты, из которых складывается сказанное.
+
+a-line-that-is-too-long = слишком длинная строка
+it-answers-order-and-order-was-given = это ответ на приказ { $of }, а дан приказ { $id }
+the-map-has-no = на карте нет «{ $name }»
+it-is-no-answer-to-such-an = это не ответ на такой приказ
+a-quotation-mark-is-not-closed = кавычка не закрыта
+a-command-is-wanted-behind-cmd = после cmd: нужна команда
+tcp-host-port-is-wanted = нужно tcp:УЗЕЛ:ПОРТ

@@ -114,3 +114,85 @@ strips-no-price = задача не говорит, сколько стоит { 
        *[other] {" "}(и ещё действий: { $more })
     }: это считается бесплатным
     .help = задайте значение в «:init»: (= (функция объект …) число)
+
+# Слова и обороты, из которых складывается сказанное.
+
+declare-the-type-under-types-pddl-types = объявите тип в разделе «Типы»
+the-action = действие
+the-parameter = параметр
+declare-it-under-predicates-pddl-predicates = объявите его в разделе «Предикаты»
+add-it-to-the-parameters = добавьте её в «Параметры»
+declare-it-in-constants = объявите его в «:constants»
+the-first-time-at = ; первый раз – { $at }
+in-functions-has-so-many = в «:functions» у «{ $text }» аргументов { $expected }
+declare-it-in-functions = объявите её в «:functions»
+the-predicate = предикат
+the-name-of-an-action = имя действия
+condition-or-effect = :condition или :effect
+duration-number-or-duration-function = (= ?duration число) или (= ?duration (функция …))
+at-start-over-all-or-at-end = (at start …), (over all …) или (at end …)
+at-start-or-at-end = (at start …) или (at end …)
+perhaps-the-letters-look-the-same-but = может быть, «{ $near }»? буквы выглядят одинаково, но взяты из разных алфавитов
+perhaps-2 = может быть, «{ $near }»?
+a-section = раздел «(:…)»
+parameters-precondition-or-effect = :parameters, :precondition или :effect
+an-expression-in-brackets = выражение в скобках
+imply-condition-condition = (imply условие условие)
+forall-variables-condition = (forall (переменные) условие)
+exists-variables-condition = (exists (переменные) условие)
+a-condition-in-brackets = условие в скобках
+a-variable-such-as-x = переменная вида «?x»
+derived-name-x-condition = (:derived (имя ?x) условие)
+forall-variables-effect-or-when-condition-effect = (forall (переменные) эффект) или (when условие эффект)
+an-effect-in-brackets = эффект в скобках
+name-arguments = «(имя аргументы…)»
+a-variable-or-an-object = переменная или объект
+a-type-after = тип после «-»
+a-type-or-either = тип или «(either …)»
+a-name = имя
+numbers-are-read-as-costs-alone-increase = числа читаются лишь как стоимость: (increase (total-cost) …)
+preferences-are-read-in-goal-one-by = желания читаются в «:goal», по одному: (preference имя условие); под «forall» и в условиях действий их нет
+there-are-no-constraints-on-the-course = условий на ход плана нет: запишите в «:goal» то, что нужно в конце
+adl-derived-predicates-action-costs-and-what = читаются :adl :derived-predicates :action-costs и что в них входит
+written = запись: { $written }
+step-action-object = «шаг: (действие объект …)»
+action-object = «(действие объект …)»
+the-map-knows-no-such-name-name = карта не знает такого имени; нового назовите в «Объекты»
+a-negation-a-comparison-or-a-condition = отрицание, сравнение или условие
+the-rules-have-no-such-predicate = правила не упоминают такого предиката
+neither-the-facts-nor-objects-pddl-objects = ни факты, ни раздел «Объекты», ни карта не знают такого объекта
+a-name-of-several-words-stands-in = имя из нескольких слов пишут в кавычках: «{ $word } { $name }»
+no-more-than-fifty-brackets-within-each = не больше пятидесяти скобок одна в другой
+a-variable-such-as-x-or = переменная вида «?x» или «)»
+then = «ТО»
+if-and-a-condition = «ЕСЛИ» и условие
+a-fact-without-not-what-ceases-to = факт без «НЕ»; то, что перестаёт быть верным, пишут в «Эффект-»
+the-end-of-the-file = конец файла
+sections-action-facts-assumptions-initial-goal-preferably = разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, Желательно, Типы, Предикаты, Объекты, Включить, Карта, По-английски
+parameters-precondition-effect-or-effect = «Параметры:», «Предусловие:», «Эффект+:» или «Эффект-:»
+action-name-before-its-parts = «Действие: имя» перед его частями
+or-the-next-fact = «)» или следующий факт
+the-name-of-a-preference = имя желания
+a-type = тип
+a-variable-such-as-x-after-the = переменная вида «?x» после типа
+or = «=» или «≠»
+after-the-name-of-the-predicate = «(» после имени предиката
+the-name-of-a-predicate = имя предиката
+or-2 = «,» или «)»
+an-objects-name-or-a-variable = имя объекта или переменная
+the-name-of-a-type = имя типа
+the-type-of-an-argument-or = тип аргумента или «)»
+the-name-of-a-predicate-an-action = имя предиката, действия или типа
+and-words-in-quotation-marks = «=» и слова в кавычках
+a-second-name = второе имя
+words-in-quotation-marks = слова в кавычках
+a-number = число
+the-name-of-a-file = имя файла
+a-section-action-facts-and-so-on = раздел: «Действие:», «Факты:» и так далее
+a-fact-such-as-name-object = факт вида «ИМЯ_(объект, …)»
+is-called-so-already = так уже называется «{ $known }»
+the-second-name = второе имя
+perhaps-if-not-declare-the-predicates-under = может быть, «{ $near }»? если нет, объявите предикаты в разделе «Предикаты»
+preference-name-condition = (preference имя условие)
+define-form = «(define …)»
+opening-bracket = «(»

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
-use crate::units::{Bilingual, Cm, InOrder as _, Point};
+use crate::units::{Bilingual, Cm, InOrder as _, Point, said, word};
 use crate::{BaseVector, Orthoframe, TypeKind};
 
 use super::plane::{bounds, doubled_area, meeting, near_pairs};
@@ -25,10 +25,7 @@ impl Checker<'_> {
         for frame in self.asked(("orthoframes", &self.world.orthoframes), id, |o| &o.key) {
             let spot = Spot::of(Record::Orthoframe(frame.id));
             if !keys.insert(&frame.key) || frame.key.is_empty() {
-                let error = MapError::BadId {
-                    owner: ("Ортофрейм", "Orthoframe").into(),
-                    id: frame.key.clone(),
-                };
+                let error = MapError::BadId { owner: said!("orthoframe"), id: frame.key.clone() };
                 self.fault(error, spot.clone());
             }
             let record = Record::Orthoframe(frame.id);
@@ -52,7 +49,7 @@ impl Checker<'_> {
     }
 
     fn sizes(&mut self, frame: &Orthoframe, spot: &Spot) {
-        let owner = Bilingual::named(("Ортофрейм", "Orthoframe"), &frame.name);
+        let owner = Bilingual::named(word!("orthoframe"), &frame.name);
         self.type_exists(TypeKind::Orthoframe, frame.frame_type, &owner, spot);
         self.type_exists(TypeKind::Shape, frame.shape, &owner, spot);
         for vector in &frame.base {
@@ -61,10 +58,10 @@ impl Checker<'_> {
         let height = frame.height.get();
         let fits = Cm::new(height).is_ok();
         self.in_range(
-            ("высота", "height"),
+            word!("height"),
             height,
             fits,
-            ("от 0 до 100 км", "from 0 to 100 km"),
+            word!("from-0-to-100-km"),
             spot.clone().field("height"),
         );
         if height < 0.0 {
@@ -77,7 +74,7 @@ impl Checker<'_> {
             "roof_scale",
             scale,
             fits,
-            ("от 0 до 100", "from 0 to 100"),
+            word!("from-0-to-100"),
             spot.clone().field("roof_scale"),
         );
     }
@@ -91,8 +88,8 @@ impl Checker<'_> {
         }
         if base.len() > MOST_VECTORS {
             let value = base.len() as f64;
-            let what = ("число векторов Базы", "the number of vectors of the Base");
-            self.in_range(what, value, false, ("от 3 до 10000", "from 3 to 10000"), spot.clone());
+            let what = word!("the-number-of-vectors-of-the-base");
+            self.in_range(what, value, false, word!("from-3-to-10000"), spot.clone());
             return;
         }
         let coordinates = base.iter().flat_map(|v| [v.start.x, v.start.y, v.end.x, v.end.y]);
@@ -124,7 +121,7 @@ impl Checker<'_> {
         let mut ids = BTreeSet::new();
         for (i, vector) in base.iter().enumerate() {
             let spot = spot.clone().index(i);
-            let owner = || Bilingual::named(("Ортофрейм", "Orthoframe"), &frame.name);
+            let owner = || Bilingual::named(word!("orthoframe"), &frame.name);
             if !is_good_id(&vector.id) {
                 self.fault(MapError::BadId { owner: owner(), id: vector.id.clone() }, spot.clone());
             } else if !ids.insert(&vector.id) {

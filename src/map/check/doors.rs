@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
-use crate::units::{AreaId, Bilingual, Cm, Gather as _};
+use crate::units::{AreaId, Bilingual, Cm, Gather as _, Piece, word};
 use crate::{
     Door, DoorKind, DoorMount, DoorState, DoorStatus, OpensTo, Permeability, SideRef, TypeKind,
 };
@@ -32,7 +32,7 @@ impl<'w> Checker<'w> {
             !self.broken.iter().any(|r| matches!(r, Record::Area(_) | Record::Object(_)));
         for door in asked {
             let spot = Spot::of(Record::Door(door.id));
-            self.key(&mut keys, &door.key, ("Дверь", "Door"), &spot);
+            self.key(&mut keys, &door.key, word!("door"), &spot);
             if !self.asks_for(Record::Door(door.id)) {
                 continue;
             }
@@ -77,23 +77,18 @@ impl<'w> Checker<'w> {
     }
 
     pub(super) fn door(&mut self, door: &Door, spot: &Spot) {
-        let owner = Bilingual::named(("дверь", "door"), &door.name);
+        let owner = Bilingual::named(word!("door-2"), &door.name);
         self.type_exists(TypeKind::Door, door.door_type, &owner, spot);
         for (what, size) in [("width", door.width.get()), ("height", door.height.get())] {
             let fits = size > 0.0 && Cm::new(size).is_ok();
             self.in_range(what, size, fits, MORE_THAN_0, spot.clone().field(what));
         }
-        let leaves = |why: (&'static str, &'static str)| MapError::DoorLeaves {
-            door: door.name.clone(),
-            why: why.into(),
-        };
+        let leaves = |why: Piece| MapError::DoorLeaves { door: door.name.clone(), why: why.into() };
         let at = spot.clone().field("leaves");
         match (door.kind, door.leaves.is_empty()) {
-            (DoorKind::Passage, false) => {
-                self.fault(leaves(("у прохода не бывает створок", "a passage has no leaves")), at)
-            }
+            (DoorKind::Passage, false) => self.fault(leaves(word!("a-passage-has-no-leaves")), at),
             (DoorKind::Hinged | DoorKind::Sliding, true) => {
-                self.fault(leaves(("нет ни одной створки", "there is not one leaf")), spot.clone());
+                self.fault(leaves(word!("there-is-not-one-leaf")), spot.clone());
             }
             _ => self.leaves(door, &at),
         }
@@ -108,21 +103,15 @@ impl<'w> Checker<'w> {
                 "share",
                 share,
                 share > 0.0 && share <= 1.0,
-                ("больше 0 и не больше 1", "more than 0 and at most 1"),
+                word!("more-than-0-and-at-most-1"),
                 at("share"),
             );
             let fits = (0.0..=50.0).contains(&thick);
-            self.in_range(
-                "thickness",
-                thick,
-                fits,
-                ("от 0 до 50 см", "from 0 to 50 cm"),
-                at("thickness"),
-            );
+            self.in_range("thickness", thick, fits, word!("from-0-to-50-cm"), at("thickness"));
             let (limit, range) = if door.kind == DoorKind::Hinged {
-                (270.0, ("больше 0 и не больше 270°", "more than 0 and at most 270°"))
+                (270.0, word!("more-than-0-and-at-most-270"))
             } else {
-                (100.0, ("больше 0 и не больше 100 %", "more than 0 and at most 100 %"))
+                (100.0, word!("more-than-0-and-at-most-100"))
             };
             let fits = leaf.max_open > 0.0 && leaf.max_open <= limit;
             self.in_range("max_open", leaf.max_open, fits, range, at("max_open"));
@@ -139,11 +128,11 @@ impl<'w> Checker<'w> {
         let opening = state.opening;
         let at = spot.clone().field("opening");
         let fits = (0.0..=100.0).contains(&opening);
-        self.in_range("opening", opening, fits, ("от 0 до 100 %", "from 0 to 100 %"), at.clone());
+        self.in_range("opening", opening, fits, word!("from-0-to-100-2"), at.clone());
         let status = match state.status {
-            DoorStatus::Open => ("открыта", "open"),
-            DoorStatus::Closed => ("закрыта", "closed"),
-            DoorStatus::Locked => ("заперта", "locked"),
+            DoorStatus::Open => word!("open"),
+            DoorStatus::Closed => word!("closed"),
+            DoorStatus::Locked => word!("locked"),
         };
         let is_open = state.status == DoorStatus::Open;
         let contradicts = match door.kind {
@@ -164,7 +153,7 @@ impl<'w> Checker<'w> {
         for (i, mount) in group.doors.iter().enumerate() {
             let at = spot.clone().field("doors").index(i);
             let Some(door) = self.world.doors.get(&mount.door) else {
-                self.exists(false, &group.title, ("дверь", "door"), mount.door.0, at);
+                self.exists(false, &group.title, word!("door-2"), mount.door.0, at);
                 continue;
             };
             if !doors.insert(mount.door) {
@@ -188,16 +177,10 @@ impl<'w> Checker<'w> {
         let side = format!("{}.{}", side.item, side.side);
         let why = match (door.kind, vector.permeability) {
             (DoorKind::Passage, Permeability::Permeable) => None,
-            (DoorKind::Passage, _) => {
-                Some(("проходу нужна проницаемая сторона", "a passage takes a permeable side"))
-            }
+            (DoorKind::Passage, _) => Some(word!("a-passage-takes-a-permeable-side")),
             (_, Permeability::Conditional) => None,
-            (_, Permeability::Permeable) => {
-                Some(("сторона проницаема без двери", "the side is permeable without a door"))
-            }
-            (_, Permeability::Impermeable) => {
-                Some(("сторона непроницаема", "the side is impermeable"))
-            }
+            (_, Permeability::Permeable) => Some(word!("the-side-is-permeable-without-a-door")),
+            (_, Permeability::Impermeable) => Some(word!("the-side-is-impermeable")),
         };
         if let Some(why) = why.map(Bilingual::from) {
             let error =
@@ -249,8 +232,8 @@ impl<'w> Checker<'w> {
         let [spot, other_spot] = spots;
         if door.kind != DoorKind::Passage && one.mount.opens == other.mount.opens {
             let way = match one.mount.opens {
-                OpensTo::Inside => ("внутрь", "inside"),
-                OpensTo::Outside => ("наружу", "outside"),
+                OpensTo::Inside => word!("inside"),
+                OpensTo::Outside => word!("outside"),
             };
             let error = MapError::DoorDirection { door: door.name.clone(), way: way.into() };
             self.contradiction(error, spot.clone(), other_spot.clone());

@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 use miette::Diagnostic;
 
 use crate::fault::{Fault, MapError, Record, Spot};
-use crate::units::{AreaId, Bilingual, Cm, DoorId, InOrder as _, Point};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, InOrder as _, Point, said, word};
 use crate::{Area, Orthoframe, Permeability, Replica, World};
 
 use super::group::{Body, bodies_of};
@@ -224,7 +224,7 @@ impl Doubter<'_> {
             let (low, high) = bounds(bodies.iter().flat_map(|b| b.polygon.iter().copied()));
             let size = high - low;
             let height = bodies.iter().map(|b| b.top - b.bottom).fold(0.0, f64::max);
-            let what = || Bilingual::named(("помещение", "area"), &area.name);
+            let what = || Bilingual::named(word!("area"), &area.name);
             let spot = Spot::of(Record::Orthoframe(base));
             let is_high = height <= 0.0 || height >= least.ceiling;
             if size.min() >= least.room && is_high || !told.insert(base) {
@@ -238,7 +238,7 @@ impl Doubter<'_> {
             }
         }
         for door in world.doors.values() {
-            let what = Bilingual::named(("дверь", "door"), &door.name);
+            let what = Bilingual::named(word!("door-2"), &door.name);
             let spot = Spot::of(Record::Door(door.id));
             if door.width.get() < least.door {
                 self.metres(what, &[door.width.get()], spot.field("width"));
@@ -256,7 +256,7 @@ impl Doubter<'_> {
             let top = bodies.iter().map(|b| b.top).fold(0.0, f64::max);
             let size = high - low;
             if size.max().max(top) < least.furniture {
-                let what = Bilingual::named(("объект", "object"), &object.name);
+                let what = Bilingual::named(word!("object"), &object.name);
                 self.metres(what, &[size.x, size.y, top], Spot::of(Record::Object(object.id)));
             }
         }
@@ -267,8 +267,7 @@ impl Doubter<'_> {
             ("speed", robot.speed, least.speed),
         ] {
             if value < least {
-                let what =
-                    Bilingual::new(format!("робот, {field}"), format!("the robot's {field}"));
+                let what = said!("the-robot-s", field);
                 self.metres(what, &[value], Spot::of(Record::Robot).field(field));
             }
         }
@@ -362,7 +361,7 @@ impl Doubter<'_> {
                 Some((other, body)) => {
                     (Bilingual::quoted(&other.replica.name), thing.bottom() - body.top)
                 }
-                None => (("полом", "the floor").into(), thing.bottom() - floor),
+                None => (said!("the-floor"), thing.bottom() - floor),
             };
             let error = MapError::ThingHovers {
                 thing: thing.replica.name.clone(),

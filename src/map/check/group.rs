@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{Bilingual, Cm, Deg, Frame, Point};
+use crate::units::{Bilingual, Cm, Deg, Frame, Piece, Point, said, word};
 use crate::{
     BaseVector, DoorMount, Face, Item, ItemLink, Orthoframe, Permeability, SideRef, TypeKind, World,
 };
@@ -73,10 +73,7 @@ impl Offset {
     pub(super) fn in_words(&self) -> Bilingual {
         let Self { x, y, z, angle } = *self;
         let by = format!("({}; {}; {})", Short(x), Short(y), Short(z));
-        Bilingual::new(
-            format!("смещение {by}, угол {}°", Short(angle)),
-            format!("an offset of {by}, an angle of {}°", Short(angle)),
-        )
+        said!("an-offset-of-an-angle-of", by, angle = Short(angle).to_string())
     }
 }
 
@@ -135,12 +132,12 @@ impl<'w> Checker<'w> {
         for object in self.asked(("objects", &self.world.objects), id, |o| &o.key) {
             let record = Record::Object(object.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &object.key, ("Объект", "Object"), &spot);
+            self.key(&mut keys, &object.key, word!("object-title"), &spot);
             if self.is_broken(record) || !self.asks_for(record) {
                 continue;
             }
             let group = Group {
-                title: Bilingual::named(("объект", "object"), &object.name),
+                title: Bilingual::named(word!("object"), &object.name),
                 record,
                 items: &object.items,
                 links: &object.links,
@@ -163,12 +160,12 @@ impl<'w> Checker<'w> {
         for area in self.asked(("areas", &self.world.areas), id, |a| &a.key) {
             let record = Record::Area(area.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &area.key, ("Помещение", "Area"), &spot);
+            self.key(&mut keys, &area.key, word!("area-title"), &spot);
             if self.is_broken(record) || !self.asks_for(record) {
                 continue;
             }
             let group = Group {
-                title: Bilingual::named(("помещение", "area"), &area.name),
+                title: Bilingual::named(word!("area"), &area.name),
                 record,
                 items: &area.items,
                 links: &area.links,
@@ -185,7 +182,7 @@ impl<'w> Checker<'w> {
         &mut self,
         keys: &mut BTreeSet<&'w str>,
         key: &'w str,
-        what: (&'static str, &'static str),
+        what: Piece,
         spot: &Spot,
     ) {
         let owner = what.into();
@@ -215,8 +212,7 @@ impl<'w> Checker<'w> {
             }
             let exists = self.world.orthoframes.contains_key(&item.orthoframe);
             let id = item.orthoframe.0;
-            all_there &=
-                self.exists(exists, &group.title, ("Ортофрейм", "Orthoframe"), id, spot.clone());
+            all_there &= self.exists(exists, &group.title, word!("orthoframe"), id, spot.clone());
             all_there &= self.frame_is_finite(&item.frame, &spot);
         }
         let bases = group.items.iter().filter(|item| item.is_base).count();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::fault::{MapError, Record, Spot};
 use crate::units::{
-    AreaId, Bilingual, Cm, DoorId, Frame, Gather as _, InOrder as _, OrFrId, Vector,
+    AreaId, Bilingual, Cm, DoorId, Frame, Gather as _, InOrder as _, OrFrId, Vector, said, word,
 };
 use crate::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
 
@@ -38,7 +38,7 @@ impl<'w> Checker<'w> {
         for map in self.world.maps.values() {
             let record = Record::Map(map.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &map.key, ("Карта", "Map"), &spot);
+            self.key(&mut keys, &map.key, word!("map"), &spot);
             for (i, item) in map.items.iter().enumerate() {
                 let count = placed.entry(item.area).or_default();
                 *count += 1;
@@ -61,7 +61,7 @@ impl<'w> Checker<'w> {
     }
 
     fn map(&mut self, map: &'w Map, spot: &Spot) {
-        let title = Bilingual::named(("карта", "map"), &map.name);
+        let title = Bilingual::named(word!("map-2"), &map.name);
         self.type_exists(TypeKind::Map, map.map_type, &title, spot);
         if map.items.is_empty() {
             self.fault(MapError::NoItems { owner: title }, spot.clone());
@@ -74,8 +74,7 @@ impl<'w> Checker<'w> {
                 continue;
             }
             let at = spot.clone().field("items").index(i);
-            all_there &=
-                self.exists(exists, &title, ("помещение", "area"), item.area.0, at.clone());
+            all_there &= self.exists(exists, &title, word!("area"), item.area.0, at.clone());
             all_there &= self.frame_is_finite(&item.frame, &at);
         }
         let bases = map.items.iter().filter(|item| item.is_base).count();
@@ -150,7 +149,7 @@ impl<'w> Checker<'w> {
         };
         let Some((index, item)) = found else {
             let error = MapError::UnknownReference {
-                what: ("Помещение на этой карте", "area on this map").into(),
+                what: said!("area-on-this-map"),
                 name: area_title(self.world, area),
                 nearest: None,
             };
@@ -352,11 +351,11 @@ impl<'w> Checker<'w> {
         if self.is_broken(Record::Domain) {
             return;
         }
-        let owner = Bilingual::named(("домейн", "domain"), &domain.name);
+        let owner = Bilingual::named(word!("domain"), &domain.name);
         for (i, item) in domain.maps.iter().enumerate() {
             let at = spot.clone().field("maps").index(i);
             let exists = self.world.maps.contains_key(&item.map);
-            self.exists(exists, &owner, ("карта", "map"), item.map.0, at.clone());
+            self.exists(exists, &owner, word!("map-2"), item.map.0, at.clone());
             let frame = &item.frame;
             let is_finite = self.frame_is_finite(frame, &at);
             if is_finite && item.is_base && *frame != Frame::IDENTITY {
@@ -393,9 +392,8 @@ impl<'w> Checker<'w> {
             let mut all_there = true;
             for stop in stops {
                 let exists = self.world.areas.contains_key(&stop.area);
-                let owner = Bilingual::named(("лифт", "lift"), name);
-                all_there &=
-                    self.exists(exists, &owner, ("помещение", "area"), stop.area.0, at.clone());
+                let owner = Bilingual::named(word!("lift"), name);
+                all_there &= self.exists(exists, &owner, word!("area"), stop.area.0, at.clone());
                 floors.extend(self.world.placement(stop.area).map(|(map, _)| map));
             }
             if all_there && floors.len() < 2 {

@@ -17,7 +17,9 @@ mod zones;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::units::{AreaId, Bilingual, Cm, Frame, InOrder as _, MapId, OrFrId, Point, TypeId};
+use crate::units::{
+    AreaId, Bilingual, Cm, Frame, InOrder as _, MapId, OrFrId, Piece, Point, TypeId, word,
+};
 
 pub use doubts::{LeastSizes, Tolerances, doubts};
 pub use group::THICKEST_WALL;
@@ -129,7 +131,7 @@ impl Checker<'_> {
         &mut self,
         exists: bool,
         owner: &Bilingual,
-        what: (&'static str, &'static str),
+        what: Piece,
         id: u32,
         spot: Spot,
     ) -> bool {
@@ -142,7 +144,7 @@ impl Checker<'_> {
     fn type_exists(&mut self, kind: TypeKind, id: Option<TypeId>, owner: &Bilingual, spot: &Spot) {
         if let Some(id) = id {
             let exists = self.world.types.list(kind).entries.contains_key(&id);
-            self.exists(exists, owner, ("тип", "type"), id.0, spot.clone().field("type"));
+            self.exists(exists, owner, word!("type"), id.0, spot.clone().field("type"));
         }
     }
 
@@ -152,7 +154,7 @@ impl Checker<'_> {
         what: impl Into<Bilingual>,
         value: f64,
         fits: bool,
-        range: (&'static str, &'static str),
+        range: Piece,
         spot: Spot,
     ) {
         if !value.is_finite() || !fits {

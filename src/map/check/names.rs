@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::fault::{MapError, Record, Spot};
-use crate::units::{Bilingual, Gather as _, InOrder as _, name_key};
+use crate::units::{Bilingual, Gather as _, InOrder as _, Piece, name_key, said, word};
 use crate::{Entity, TypeKind, World};
 
 use super::{Checker, Scope};
@@ -95,15 +95,10 @@ impl Checker<'_> {
         for entry in self.world.types.list(kind).entries.values() {
             let spot = Spot::of(Record::Type(kind, entry.id));
             if entry.name.trim().is_empty() {
-                self.fault(MapError::NoName { what: ("тип", "type").into() }, spot);
+                self.fault(MapError::NoName { what: said!("type") }, spot);
             } else if let Some(&first) = bearers.get(&entry.name) {
                 let list = kind.field();
-                let words = |id: crate::units::TypeId| {
-                    Bilingual::new(
-                        format!("тип {} списка {list}", id.0),
-                        format!("type {} of the list {list}", id.0),
-                    )
-                };
+                let words = |id: crate::units::TypeId| said!("type-of-the-list", id = id.0, list);
                 let error = MapError::DuplicateName {
                     name: entry.name.clone(),
                     other: format!("{}-2", entry.name.trim()),
@@ -131,14 +126,14 @@ impl From<Entity> for Record {
     }
 }
 
-fn kind(entity: Entity) -> (&'static str, &'static str) {
+fn kind(entity: Entity) -> Piece {
     match entity {
-        Entity::Map(_) => ("карта", "map"),
-        Entity::Area(_) => ("помещение", "area"),
-        Entity::Door(_) => ("дверь", "door"),
-        Entity::Replica(_) => ("экземпляр", "replica"),
-        Entity::Place(_) => ("место", "place"),
-        Entity::Zone(_) => ("зона", "zone"),
+        Entity::Map(_) => word!("map-2"),
+        Entity::Area(_) => word!("area"),
+        Entity::Door(_) => word!("door-2"),
+        Entity::Replica(_) => word!("replica"),
+        Entity::Place(_) => word!("place"),
+        Entity::Zone(_) => word!("zone"),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
-use crate::units::{AreaId, Bilingual, Cm, Frame, Point};
+use crate::units::{AreaId, Bilingual, Cm, Frame, Point, said, word};
 use crate::{Replica, RobotProfile, World};
 
 use super::group::Body;
@@ -63,14 +63,14 @@ impl Checker<'_> {
         if replica.move_prob > 100 {
             let value = f64::from(replica.move_prob);
             let at = spot.clone().field("move_prob");
-            self.in_range("move_prob", value, false, ("от 0 до 100", "from 0 to 100"), at);
+            self.in_range("move_prob", value, false, word!("from-0-to-100"), at);
         }
         let is_finite = self.frame_is_finite(&replica.frame, &spot);
         let world = self.world;
         let area = world.areas.contains_key(&replica.area);
-        self.exists(area, &owner, ("помещение", "area"), replica.area.0, spot.clone());
+        self.exists(area, &owner, word!("area"), replica.area.0, spot.clone());
         let object = world.objects.get(&replica.object);
-        let (id, what) = (replica.object.0, ("объект", "object"));
+        let (id, what) = (replica.object.0, word!("object"));
         if !self.exists(object.is_some(), &owner, what, id, spot.clone()) {
             return;
         }
@@ -96,7 +96,7 @@ impl Checker<'_> {
                 }
                 Some(door) if !self.is_broken(Record::Object(object.id)) => {
                     let error = MapError::UnknownReference {
-                        what: ("Дверь этого объекта", "door of this object").into(),
+                        what: said!("door-of-this-object"),
                         name: door.name.clone(),
                         nearest: None,
                     };
@@ -105,7 +105,7 @@ impl Checker<'_> {
                 Some(_) => {}
                 None => {
                     let owner = Bilingual::quoted(&replica.name);
-                    self.exists(false, &owner, ("дверь", "door"), id.0, at);
+                    self.exists(false, &owner, word!("door-2"), id.0, at);
                 }
             }
         }
@@ -159,13 +159,13 @@ impl Checker<'_> {
                 continue;
             }
             let spot = Spot::of(Record::Place(place.id));
-            let owner = Bilingual::named(("место", "place"), &place.name);
+            let owner = Bilingual::named(word!("place"), &place.name);
             let area = self.world.areas.get(&place.area);
-            self.exists(area.is_some(), &owner, ("помещение", "area"), place.area.0, spot.clone());
+            self.exists(area.is_some(), &owner, word!("area"), place.area.0, spot.clone());
             if let Some(replica) = place.serves {
                 let exists = self.world.replicas.contains_key(&replica);
                 let at = spot.clone().field("serves");
-                self.exists(exists, &owner, ("экземпляр", "replica"), replica.0, at);
+                self.exists(exists, &owner, word!("replica"), replica.0, at);
             }
             let at = spot.field("at");
             let wrong = [place.at.x, place.at.y].into_iter().find(|&c| Cm::new(c).is_err());
@@ -196,7 +196,7 @@ impl Checker<'_> {
         ];
         for (what, value, fits) in numbers {
             let range = if what == "step" || what == "clearance" {
-                ("не меньше 0", "at least 0")
+                word!("at-least-0")
             } else {
                 MORE_THAN_0
             };
@@ -207,7 +207,7 @@ impl Checker<'_> {
         }
         if let Some(start) = robot.start {
             let exists = self.world.places.contains_key(&start);
-            let (owner, what) = (("робот", "robot").into(), ("место", "place"));
+            let (owner, what) = (said!("robot"), word!("place"));
             self.exists(exists, &owner, what, start.0, spot.field("start"));
         }
     }
@@ -221,29 +221,16 @@ fn footprint(robot: &RobotProfile) -> Result<(), Bilingual> {
         return Ok(());
     }
     if n < 3 {
-        return Err(Bilingual::new(
-            format!("углов {n}, нужно не меньше 3"),
-            format!("it has {n} corners and needs at least 3"),
-        ));
+        return Err(said!("it-has-corners-and-needs-at-least", n));
     }
     for i in 0..n {
         let (a, b, c) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
         if (b - a).perp(&(c - b)) <= 0.0 {
             let at = format!("({}, {})", b.x, b.y);
-            return Err(Bilingual::new(
-                format!(
-                    "в углу {at} он не поворачивает влево, нужен выпуклый контур против часовой стрелки"
-                ),
-                format!(
-                    "at the corner {at} it does not turn left; a convex outline is needed, counter-clockwise"
-                ),
-            ));
+            return Err(said!("at-the-corner-it-does-not-turn", at));
         }
         if (b - a).perp(&-a.coords) <= 0.0 {
-            return Err(Bilingual::new(
-                "центр (0, 0), вокруг которого робот поворачивается, не внутри",
-                "the centre (0, 0), round which the robot turns, is not inside",
-            ));
+            return Err(said!("the-centre-0-0-round-which-the"));
         }
     }
     // Corners that each turn left may still run round twice.
@@ -254,7 +241,7 @@ fn footprint(robot: &RobotProfile) -> Result<(), Bilingual> {
         })
         .sum();
     if turns > 7.0 {
-        return Err(("он пересекает сам себя", "it crosses itself").into());
+        return Err(said!("it-crosses-itself"));
     }
     let reach = corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
     if robot.radius.get() < reach - 1e-6 {

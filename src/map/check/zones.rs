@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
-use crate::units::{Bilingual, Cm};
+use crate::units::{Bilingual, Cm, Piece, said, word};
 use crate::{Extent, Zone, ZoneKind};
 
 use super::plane::{doubled_area, edges, meeting};
@@ -24,7 +24,7 @@ impl Checker<'_> {
         for zone in self.asked(("zones", &self.world.zones), id, |z| &z.key) {
             let record = Record::Zone(zone.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &zone.key, ("Зона", "Zone"), &spot);
+            self.key(&mut keys, &zone.key, word!("zone-title"), &spot);
             if !self.is_broken(record) && self.asks_for(record) {
                 self.zone(zone, &spot);
             }
@@ -32,7 +32,7 @@ impl Checker<'_> {
     }
 
     fn zone(&mut self, zone: &Zone, spot: &Spot) {
-        let owner = Bilingual::named(("зона", "zone"), &zone.name);
+        let owner = Bilingual::named(word!("zone"), &zone.name);
         if let ZoneKind::Slow { speed } = zone.kind {
             self.in_range("speed", speed, speed > 0.0, MORE_THAN_0, spot.clone().field("speed"));
         }
@@ -41,32 +41,29 @@ impl Checker<'_> {
         {
             self.zone_fault(
                 owner.clone(),
-                (
-                    "until не позже from: она никогда не действует",
-                    "until is not after from: it is never in force",
-                ),
+                word!("until-is-not-after-from-it-is"),
                 spot.clone().field("until"),
             );
         }
         match &zone.extent {
             Extent::Areas(areas) => {
                 if areas.is_empty() {
-                    let none = ("она нигде", "it is nowhere");
+                    let none = word!("it-is-nowhere");
                     self.zone_fault(owner.clone(), none, spot.clone());
                 }
                 for (i, area) in areas.iter().enumerate() {
                     let at = spot.clone().field("rooms").index(i);
                     let exists = self.world.areas.contains_key(area);
-                    self.exists(exists, &owner, ("помещение", "area"), area.0, at.clone());
+                    self.exists(exists, &owner, word!("area"), area.0, at.clone());
                     if areas[..i].contains(area) {
-                        let twice = ("помещение названо дважды", "an area is named twice");
+                        let twice = word!("an-area-is-named-twice");
                         self.zone_fault(owner.clone(), twice, at);
                     }
                 }
             }
             Extent::Polygon { map, corners } => {
                 let exists = self.world.maps.contains_key(map);
-                self.exists(exists, &owner, ("карта", "map"), map.0, spot.clone().field("map"));
+                self.exists(exists, &owner, word!("map-2"), map.0, spot.clone().field("map"));
                 self.outline(&owner, corners, &spot.clone().field("points"));
             }
         }
@@ -75,7 +72,7 @@ impl Checker<'_> {
     fn outline(&mut self, owner: &Bilingual, corners: &[crate::units::Point], spot: &Spot) {
         if !(3..=MOST_CORNERS).contains(&corners.len()) {
             let (what, value) = ("points".into(), corners.len() as f64);
-            let range = ("от 3 до 500 углов", "from 3 to 500 corners").into();
+            let range = said!("from-3-to-500-corners");
             return self.fault(MapError::OutOfRange { what, value, range }, spot.clone());
         }
         let numbers = corners.iter().enumerate().flat_map(|(i, p)| [(i, p.x), (i, p.y)]);
@@ -85,7 +82,7 @@ impl Checker<'_> {
             return self.fault(MapError::OutOfRange { what, value, range }, at);
         }
         if doubled_area(corners).abs() < 2.0 * LEAST_AREA {
-            let flat = ("у неё нет площади", "it has no area");
+            let flat = word!("it-has-no-area");
             return self.zone_fault(owner.clone(), flat, spot.clone());
         }
         let sides: Vec<_> = edges(corners).collect();
@@ -93,10 +90,7 @@ impl Checker<'_> {
             for (j, other) in sides.iter().enumerate().skip(i + 2) {
                 let follows = i == 0 && j + 1 == sides.len();
                 let Some(p) = meeting(*one, *other).filter(|_| !follows) else { continue };
-                let message = Bilingual::new(
-                    format!("её контур пересекает сам себя в точке {}", at(p)),
-                    format!("its outline crosses itself at {}", at(p)),
-                );
+                let message = said!("its-outline-crosses-itself-at", p = at(p));
                 return self.fault(
                     MapError::BadZone { owner: owner.clone(), message },
                     spot.clone().index(i),
@@ -105,7 +99,7 @@ impl Checker<'_> {
         }
     }
 
-    fn zone_fault(&mut self, owner: Bilingual, message: (&'static str, &'static str), spot: Spot) {
+    fn zone_fault(&mut self, owner: Bilingual, message: Piece, spot: Spot) {
         self.fault(MapError::BadZone { owner, message: message.into() }, spot);
     }
 }

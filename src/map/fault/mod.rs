@@ -9,16 +9,17 @@ use miette::{
 };
 
 use crate::units::{
-    Bilingual, Cm, English, EnglishGroup, Fault as _, InEnglish, Language, Source, here, told,
+    Bilingual, Cm, English, EnglishGroup, Fault as _, InEnglish, Language, Piece, Source, here,
+    told, word,
 };
 
 mod spot;
 
 pub use spot::{Record, Spot, Step};
 
-pub(super) const COORDINATE: (&str, &str) = ("координата", "a coordinate");
-pub(super) const WITHIN: (&str, &str) = ("в пределах ±100 км", "within ±100 km");
-pub(super) const MORE_THAN_0: (&str, &str) = ("больше 0", "more than 0");
+pub(super) const COORDINATE: Piece = word!("a-coordinate");
+pub(super) const WITHIN: Piece = word!("within-100-km");
+pub(super) const MORE_THAN_0: Piece = word!("more-than-0");
 
 /// A map that cannot be read, or that contradicts itself. Points are `(x, y)` in cm.
 #[derive(Debug, Clone, PartialEq, crate::units::Fault)]

@@ -14,7 +14,7 @@ use serde::de::{
 
 use super::node::{Entry, Misprint, Node, Span, Value};
 use crate::fault::MapError;
-use crate::units::{Bilingual, nearest_name};
+use crate::units::{Bilingual, Piece, nearest_name, said, word};
 
 /// Faults of one table after which its reading ends.
 const MOST_FAULTS: usize = 50;
@@ -132,12 +132,7 @@ impl de::Error for DecodeError {
     }
 
     fn duplicate_field(field: &'static str) -> Self {
-        Self::new(MapError::BadValue {
-            message: Bilingual::new(
-                format!("поле «{field}» дано дважды"),
-                format!("the field “{field}” is given twice"),
-            ),
-        })
+        Self::new(MapError::BadValue { message: said!("the-field-is-given-twice", field) })
     }
 }
 
@@ -156,44 +151,43 @@ fn found_words(found: Unexpected<'_>) -> Bilingual {
 }
 
 pub(super) fn a_number(number: impl fmt::Display) -> Bilingual {
-    Bilingual::new(format!("число {number}"), format!("the number {number}"))
+    said!("the-number", number = number.to_string())
 }
 
 pub(super) fn a_text(text: &str) -> Bilingual {
-    Bilingual::named(("текст", "the text"), &shortened(text))
+    Bilingual::named(word!("the-text"), &shortened(text))
 }
 
 pub(super) fn list_of(length: usize) -> Bilingual {
-    Bilingual::new(format!("список из {length} значений"), format!("a list of {length} values"))
+    said!("a-list-of-values", length)
 }
 
 /// What a number that is not finite, or larger than any building ([`Cm::LIMIT`](crate::units::Cm::LIMIT)), should be.
 pub(super) const MODEST_NUMBER: &str = "a number of modest size";
 /// What [`Coordinates`](super::schema::Coordinates) are.
 pub(super) const COORDINATES: &str = "coordinates";
-pub(super) const TEXT: (&str, &str) = ("текст", "a text");
-pub(super) const NUMBER: (&str, &str) = ("число", "a number");
-pub(super) const BOOLEAN: (&str, &str) = ("true или false", "true or false");
-pub(super) const LIST: (&str, &str) = ("список", "a list");
-pub(super) const TABLE: (&str, &str) = ("таблица", "a table");
-pub(super) const NOTHING: (&str, &str) = ("пустое значение", "an empty value");
-pub(super) const TWO_OR_THREE: (&str, &str) =
-    ("два или три числа [x, y, z]", "two or three numbers [x, y, z]");
+pub(super) const TEXT: Piece = word!("a-text");
+pub(super) const NUMBER: Piece = word!("a-number");
+pub(super) const BOOLEAN: Piece = word!("true-or-false");
+pub(super) const LIST: Piece = word!("a-list");
+pub(super) const TABLE: Piece = word!("a-table");
+pub(super) const NOTHING: Piece = word!("an-empty-value");
+pub(super) const TWO_OR_THREE: Piece = word!("two-or-three-numbers-x-y-z");
 
 /// What serde wants, in people's words.
 pub(super) fn expected_words(expected: &str) -> Bilingual {
     let words = match expected {
         "a string" | "a borrowed string" => TEXT,
         "f64" => NUMBER,
-        MODEST_NUMBER => ("число от -10000000 до 10000000", "a number from -10000000 to 10000000"),
+        MODEST_NUMBER => word!("a-number-from-10000000-to-10000000"),
         COORDINATES => TWO_OR_THREE,
-        "u32" | "u8" | "u64" | "i64" => ("целое число не меньше нуля", "a whole number from 0 up"),
+        "u32" | "u8" | "u64" | "i64" => word!("a-whole-number-from-0-up"),
         "a boolean" => BOOLEAN,
         "a sequence" => LIST,
         "a map" => TABLE,
-        "an array of length 2" => ("два числа [x, y]", "two numbers [x, y]"),
+        "an array of length 2" => word!("two-numbers-x-y"),
         _ if expected.starts_with("struct ") => TABLE,
-        _ if expected.contains("enum ") => ("слово", "a word"),
+        _ if expected.contains("enum ") => word!("a-word"),
         _ => return Bilingual::new(expected.to_owned(), expected.to_owned()),
     };
     words.into()

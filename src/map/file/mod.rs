@@ -27,7 +27,7 @@ use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
-use crate::units::{Bilingual, FileFault, InOrder as _, Source};
+use crate::units::{Bilingual, FileFault, InOrder as _, Source, said};
 
 pub use edit::{Edit, EditReading, Edits, Naming, NewRecord, NextIds, RobotSaid, edit, kinds};
 pub use schema::json_schema;
@@ -96,9 +96,8 @@ pub fn read(source: &Source, format: Format) -> Reading {
             return fail(vec![Fault::new(MapError::Empty, Vec::new())]);
         }
         _ => {
-            let expected = ("таблица с полем format", "a table with a field format").into();
-            let error =
-                MapError::WrongKind { found: ("значение", "a value").into(), expected };
+            let expected = said!("a-table-with-a-field-format");
+            let error = MapError::WrongKind { found: said!("a-value"), expected };
             return fail(vec![Fault::new(error, Vec::new())]);
         }
     }

@@ -12,8 +12,8 @@ use super::schema::{
 };
 use crate::fault::{Fault, MapError, Record, Spot};
 use crate::units::{
-    AreaId, Bilingual, DoorId, Gather as _, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId,
-    ZoneId, name_key, nearest_name,
+    AreaId, DoorId, Gather as _, MapId, ObjectId, OrFrId, Piece, PlaceId, ReplicaId, TypeId,
+    ZoneId, name_key, nearest_name, said, word,
 };
 use crate::{TypeEntry, TypeKind, TypeLists, World};
 
@@ -245,17 +245,17 @@ impl<'n> Reader<'n> {
         self.top_level();
         let types = self.types();
         let orthoframes =
-            self.section("orthoframe", ("Ортофрейм", "Orthoframe"), OrFrId, Record::Orthoframe);
+            self.section("orthoframe", word!("orthoframe"), OrFrId, Record::Orthoframe);
         self.names.orthoframes = self.index("orthoframe", &orthoframes);
-        let doors = self.section("door", ("Дверь", "Door"), DoorId, Record::Door);
+        let doors = self.section("door", word!("door"), DoorId, Record::Door);
         self.names.doors = self.index("door", &doors);
-        let objects = self.section("object", ("Объект", "Object"), ObjectId, Record::Object);
+        let objects = self.section("object", word!("object-title"), ObjectId, Record::Object);
         self.names.objects = self.index("object", &objects);
-        let mut areas = self.section("area", ("Помещение", "Area"), AreaId, Record::Area);
+        let mut areas = self.section("area", word!("area-title"), AreaId, Record::Area);
         self.names.areas = self.index("area", &areas);
-        let maps = self.section("map", ("Карта", "Map"), MapId, Record::Map);
+        let maps = self.section("map", word!("map"), MapId, Record::Map);
         self.names.maps = self.index("map", &maps);
-        let zones = self.section("zone", ("Зона", "Zone"), ZoneId, Record::Zone);
+        let zones = self.section("zone", word!("zone-title"), ZoneId, Record::Zone);
         let replicas = self.replicas(&mut areas);
         let places = self.places(&mut areas);
 
@@ -341,7 +341,7 @@ impl<'n> Reader<'n> {
     fn section<Id: Copy, T: Deserialize<'n> + Keyed>(
         &mut self,
         section: &str,
-        what: (&'static str, &'static str),
+        what: Piece,
         id: impl Fn(u32) -> Id,
         record: impl Fn(Id) -> Record,
     ) -> Vec<Raw<Id, T>> {
@@ -351,11 +351,8 @@ impl<'n> Reader<'n> {
         {
             self.misprints(vec![Misprint {
                 error: MapError::WrongKind {
-                    found: ("значение", "a value").into(),
-                    expected: Bilingual::new(
-                        format!("таблицы [{section}.КЛЮЧ]"),
-                        format!("tables [{section}.KEY]"),
-                    ),
+                    found: said!("a-value"),
+                    expected: said!("tables-key-2", section),
                 },
                 span: Some(entry.key_span.clone()),
             }]);
@@ -407,7 +404,7 @@ impl<'n> Reader<'n> {
     pub(super) fn follow<Id: Copy>(
         &mut self,
         index: impl for<'i> Fn(&'i Names<'n>) -> &'i Index<'n, Id>,
-        what: (&'static str, &'static str),
+        what: Piece,
         name: &str,
         spot: Spot,
     ) -> Option<Id> {
@@ -431,11 +428,11 @@ impl<'n> Reader<'n> {
     ) -> Option<TypeId> {
         let name = name?;
         if self.names.types.contains_key(&kind) {
-            self.follow(|names| &names.types[&kind], ("Тип", "Type"), name, spot)
+            self.follow(|names| &names.types[&kind], word!("type-title"), name, spot)
         } else {
             self.follow(
                 |names| names.types.values().next().expect("all kinds are indexed"),
-                ("Тип", "Type"),
+                word!("type-title"),
                 name,
                 spot,
             )
@@ -479,8 +476,7 @@ impl<'n> Reader<'n> {
                 self.origins.insert(Record::Type(kind, id), origin);
                 let entries = &mut types.list_mut(kind).entries;
                 if entries.insert(id, type_entry(id, file)).is_some() {
-                    let error =
-                        MapError::DuplicateId { what: ("Тип", "Type").into(), id: number };
+                    let error = MapError::DuplicateId { what: said!("type-title"), id: number };
                     self.misprints(vec![Misprint { error, span: Some(node.span.clone()) }]);
                 }
             }
@@ -497,7 +493,7 @@ impl<'n> Reader<'n> {
         let lists: Vec<_> =
             areas.iter_mut().map(|a| (a.id, std::mem::take(&mut a.file.replicas))).collect();
         let (lines, index) =
-            self.lines(lists, "replicas", ("Экземпляр", "Replica"), ReplicaId, Record::Replica);
+            self.lines(lists, "replicas", word!("replica-title"), ReplicaId, Record::Replica);
         self.names.replicas = index;
         lines
     }
@@ -506,7 +502,7 @@ impl<'n> Reader<'n> {
         let lists: Vec<_> =
             areas.iter_mut().map(|a| (a.id, std::mem::take(&mut a.file.places))).collect();
         let (lines, index) =
-            self.lines(lists, "places", ("Место", "Place"), PlaceId, Record::Place);
+            self.lines(lists, "places", word!("place-title"), PlaceId, Record::Place);
         self.names.places = index;
         lines
     }
@@ -516,7 +512,7 @@ impl<'n> Reader<'n> {
         &mut self,
         lists: Vec<(AreaId, Vec<T>)>,
         field: &str,
-        what: (&'static str, &'static str),
+        what: Piece,
         id: impl Fn(u32) -> Id,
         record: impl Fn(Id) -> Record,
     ) -> (Vec<(AreaId, Id, T)>, Index<'n, Id>) {

@@ -14,7 +14,7 @@ use super::schema::{
 use crate::fault::{MORE_THAN_0, MapError, Record, Spot};
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    Timestamp, ZoneId, nearest_name,
+    Timestamp, ZoneId, nearest_name, said, word,
 };
 use crate::{
     Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
@@ -37,7 +37,7 @@ impl Reader<'_> {
         for (i, item) in file.maps.iter().enumerate() {
             let frame = self.frame(&item.at, item.angle, &spot("maps", i));
             let map =
-                self.follow(|n| &n.maps, ("Карта", "Map"), &item.map, spot("maps", i).field("map"));
+                self.follow(|n| &n.maps, word!("map"), &item.map, spot("maps", i).field("map"));
             let is_base = item.base || (none_is_base && i == 0);
             domain_maps.extend(map.map(|map| DomainMap { map, frame, is_base }));
         }
@@ -49,7 +49,7 @@ impl Reader<'_> {
             let mut stops = Vec::new();
             for (j, stop) in lift.stops.iter().enumerate() {
                 let at = spot("lifts", i).field("stops").index(j);
-                let area = self.follow(|n| &n.areas, ("Помещение", "Area"), stop, at);
+                let area = self.follow(|n| &n.areas, word!("area-title"), stop, at);
                 stops.extend(area.map(|area| LiftStop { area }));
             }
             lifts.push((lift.name.clone(), stops));
@@ -94,7 +94,7 @@ impl Reader<'_> {
     /// Where the robot stands when nothing else is known.
     pub(super) fn start(&mut self, name: &str) -> Option<PlaceId> {
         let spot = Spot::of(Record::Robot).field("start");
-        self.follow(|n| &n.places, ("Место", "Place"), name, spot)
+        self.follow(|n| &n.places, word!("place-title"), name, spot)
     }
 
     /// A frame from `at` and `angle`.
@@ -128,11 +128,8 @@ impl Reader<'_> {
                 None => {
                     let nearest = nearest_name(&side, base.iter().map(|v| v.id.as_str()));
                     let nearest = nearest.map(str::to_owned);
-                    let error = MapError::UnknownReference {
-                        what: ("Сторона", "Side").into(),
-                        name: side,
-                        nearest,
-                    };
+                    let error =
+                        MapError::UnknownReference { what: said!("side"), name: side, nearest };
                     self.fault(error, at);
                 }
             }
@@ -189,7 +186,7 @@ impl Reader<'_> {
             let (corners, radius) = (regular.corners, regular.radius.0);
             let at = |field| spot.clone().field("regular").field(field);
             if !(3..=360).contains(&corners) {
-                let (value, range) = (f64::from(corners), ("от 3 до 360", "from 3 to 360").into());
+                let (value, range) = (f64::from(corners), said!("from-3-to-360"));
                 let error = MapError::OutOfRange { what: "corners".into(), value, range };
                 self.fault(error, at("corners"));
                 return Vec::new();
@@ -325,7 +322,7 @@ impl Reader<'_> {
             let frame = self.frame(&file.at, file.angle, &at);
             let orthoframe = self.follow(
                 |n| &n.orthoframes,
-                ("Ортофрейм", "Orthoframe"),
+                word!("orthoframe"),
                 &file.orthoframe,
                 at.field("orthoframe"),
             );
@@ -364,11 +361,7 @@ impl Reader<'_> {
 
     pub(super) fn face(&mut self, text: &str, spot: Spot) -> Option<(String, Face)> {
         let Some((item, face)) = text.rsplit_once('.') else {
-            let wanted = (
-                "«часть.roof», «часть.base» или «часть.сторона»",
-                "“part.roof”, “part.base” or “part.side”",
-            )
-                .into();
+            let wanted = word!("part-roof-part-base-or-part-side").into();
             self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
             return None;
         };
@@ -389,7 +382,7 @@ impl Reader<'_> {
             // Without items the group has a fault of its own.
             (None, []) => None,
             (None, _) => {
-                let wanted = ("«часть.сторона»", "“part.side”").into();
+                let wanted = said!("part-side");
                 self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
                 None
             }
@@ -406,7 +399,7 @@ impl Reader<'_> {
         for (i, file) in files.iter().enumerate() {
             let at = spot.clone().field("doors").index(i);
             let side = self.side(&file.side, items, at.clone().field("side"));
-            let door = self.follow(|n| &n.doors, ("Дверь", "Door"), &file.door, at.field("door"));
+            let door = self.follow(|n| &n.doors, word!("door"), &file.door, at.field("door"));
             if let (Some(SideRef { item, side }), Some(door)) = (side, door) {
                 mounts.push(DoorMount { item, side, door, opens: file.opens.into() });
             }
@@ -425,12 +418,12 @@ impl Reader<'_> {
         let mut door_states = BTreeMap::new();
         for (door, state) in file.doors.0 {
             let at = spot.clone().field("doors").key(&door);
-            let door = self.follow(|n| &n.doors, ("Дверь", "Door"), &door, at);
+            let door = self.follow(|n| &n.doors, word!("door"), &door, at);
             let DoorStateFile { state, opening } = state;
             door_states.extend(door.map(|door| (door, door_state(state.into(), opening))));
         }
         let object =
-            self.follow(|n| &n.objects, ("Объект", "Object"), &file.object, spot.field("object"))?;
+            self.follow(|n| &n.objects, word!("object-title"), &file.object, spot.field("object"))?;
         let replica = Replica {
             id,
             area,
@@ -452,7 +445,7 @@ impl Reader<'_> {
             let error = MapError::OutOfRange {
                 what: "move_prob".into(),
                 value: f64::from(percent),
-                range: ("от 0 до 100", "from 0 to 100").into(),
+                range: said!("from-0-to-100"),
             };
             self.fault(error, Spot::of(Record::Replica(id)).field("move_prob"));
         }
@@ -462,7 +455,7 @@ impl Reader<'_> {
     /// The replica that is served from a place.
     pub(super) fn served(&mut self, from: PlaceId, name: &str) -> Option<ReplicaId> {
         let spot = Spot::of(Record::Place(from)).field("serves");
-        self.follow(|n| &n.replicas, ("Экземпляр", "Replica"), name, spot)
+        self.follow(|n| &n.replicas, word!("replica-title"), name, spot)
     }
 
     pub(super) fn place(&mut self, line: (AreaId, PlaceId, PlaceFile)) -> (PlaceId, Place) {
@@ -504,17 +497,11 @@ impl Reader<'_> {
             (_, speed, _) => {
                 let (field, message) = match (file.kind, speed) {
                     (ZoneWord::OneWay, _) | (ZoneWord::KeepOut | ZoneWord::Closed, Some(_)) => {
-                        let words = (
-                            "скорость задают только медленной зоне",
-                            "only a slow zone has a speed",
-                        );
+                        let words = word!("only-a-slow-zone-has-a-speed");
                         ("speed", words)
                     }
                     _ => {
-                        let words = (
-                            "направление задают только односторонней зоне",
-                            "only a one-way zone has a heading",
-                        );
+                        let words = word!("only-a-one-way-zone-has-a");
                         ("heading", words)
                     }
                 };
@@ -541,7 +528,7 @@ impl Reader<'_> {
     }
 
     fn extent(&mut self, file: &ZoneFile, spot: &Spot) -> Option<Extent> {
-        let both = ("дайте либо rooms, либо points", "give either rooms or points");
+        let both = word!("give-either-rooms-or-points");
         match (file.rooms.is_empty(), file.points.is_empty()) {
             (true, true) => {
                 self.fault(MapError::BadValue { message: both.into() }, spot.clone());
@@ -551,7 +538,7 @@ impl Reader<'_> {
                 let mut areas = Vec::new();
                 for (i, room) in file.rooms.iter().enumerate() {
                     let at = spot.clone().field("rooms").index(i);
-                    areas.extend(self.follow(|n| &n.areas, ("Помещение", "Area"), room, at));
+                    areas.extend(self.follow(|n| &n.areas, word!("area-title"), room, at));
                 }
                 (areas.len() == file.rooms.len()).then_some(Extent::Areas(areas))
             }
@@ -559,7 +546,7 @@ impl Reader<'_> {
                 let map = match &file.map {
                     Some(map) => {
                         let at = spot.clone().field("map");
-                        self.follow(|n| &n.maps, ("Карта", "Map"), map, at)
+                        self.follow(|n| &n.maps, word!("map"), map, at)
                     }
                     None => {
                         let only = self.names.maps.only();
@@ -585,10 +572,7 @@ impl Reader<'_> {
     fn moment(&mut self, text: Option<&str>, spot: Spot) -> Option<Timestamp> {
         let moment = text?.parse::<Timestamp>();
         if moment.is_err() {
-            let message = (
-                "время пишется так: 2026-11-21T09:30Z",
-                "a moment is written like this: 2026-11-21T09:30Z",
-            );
+            let message = word!("a-moment-is-written-like-this-2026");
             self.fault(MapError::BadValue { message: message.into() }, spot);
         }
         moment.ok()
@@ -602,8 +586,7 @@ impl Reader<'_> {
         for (i, item) in file.items.iter().enumerate() {
             let at = spot.clone().field("items").index(i);
             let frame = self.frame(&item.at, item.angle, &at);
-            let area =
-                self.follow(|n| &n.areas, ("Помещение", "Area"), &item.area, at.field("area"));
+            let area = self.follow(|n| &n.areas, word!("area-title"), &item.area, at.field("area"));
             let is_base = item.base || (none_is_base && i == 0);
             items.extend(area.map(|area| MapItem { area, frame, is_base }));
         }
@@ -640,15 +623,11 @@ impl Reader<'_> {
         spot: Spot,
     ) -> Option<(AreaId, SideRef)> {
         let Some((name, side)) = text.split_once('.') else {
-            let wanted = (
-                "«помещение.сторона» или «помещение.часть.сторона»",
-                "“area.side” or “area.part.side”",
-            )
-                .into();
+            let wanted = word!("area-side-or-area-part-side").into();
             self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
             return None;
         };
-        let area = self.follow(|n| &n.areas, ("Помещение", "Area"), name, spot.clone())?;
+        let area = self.follow(|n| &n.areas, word!("area-title"), name, spot.clone())?;
         let items = areas.get(&area).map_or(&[][..], |area| &area.items);
         Some((area, self.side(side, items, spot)?))
     }

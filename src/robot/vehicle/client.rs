@@ -14,7 +14,9 @@ use std::time::{Duration, Instant};
 
 use crate::geometry::Ride;
 use crate::map::{DoorState, World};
-use crate::units::{AreaId, Bilingual, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{
+    AreaId, Bilingual, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, said, word,
+};
 
 use super::link::{Address, Link};
 use super::names::{Names, Wrong};
@@ -195,7 +197,7 @@ impl RemoteVehicle {
                     }
                 }
                 Ok(Heard::TooLong(line)) => {
-                    let why = ("слишком длинная строка", "a line that is too long");
+                    let why = word!("a-line-that-is-too-long");
                     return Err(rubbish(asked, &line, why.into()));
                 }
                 Err(RecvTimeoutError::Timeout) => {}
@@ -225,18 +227,10 @@ impl RemoteVehicle {
         let Message { id: of, time, at, what } = message;
         let ends = !matches!(what, Saying::Going | Saying::Saw { .. } | Saying::Scan(_));
         if of > self.id || (of != id && ends) {
-            let why = Bilingual::new(
-                format!("это ответ на приказ {of}, а дан приказ {id}"),
-                format!("it answers order {of}, and order {id} was given"),
-            );
+            let why = said!("it-answers-order-and-order-was-given", of, id);
             return Err(wrong(why));
         }
-        let unknown = |name: Wrong| {
-            wrong(Bilingual::new(
-                format!("на карте нет «{name}»"),
-                format!("the map has no “{name}”"),
-            ))
-        };
+        let unknown = |name: Wrong| wrong(said!("the-map-has-no", name));
         if let Saying::Failed { text } = what {
             return Err(Failure::OwnFault { text: shown(text.as_bytes()) });
         }
@@ -267,7 +261,7 @@ impl RemoteVehicle {
     /// It answered with what is no answer to this.
     fn unfit(&mut self, asked: &'static str, said: &Saying) -> Failure {
         let line = serde_json::to_string(said).unwrap_or_default();
-        let why = ("это не ответ на такой приказ", "it is no answer to such an order");
+        let why = word!("it-is-no-answer-to-such-an");
         let failure = rubbish(asked, line.as_bytes(), why.into());
         self.failed = Some(failure.clone());
         failure

@@ -6,7 +6,7 @@ use std::process::Child;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
-use crate::units::Bilingual;
+use crate::units::{Bilingual, said, word};
 
 /// Where a vehicle is to be had: `cmd:PROGRAM ARGUMENT …` or `tcp:HOST:PORT`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,16 +22,15 @@ impl FromStr for Address {
     /// Words of a command are parted by blanks; what stands in quotation marks, single or double, is one word.
     fn from_str(text: &str) -> Result<Self, Bilingual> {
         if let Some(command) = text.strip_prefix("cmd:") {
-            let words = words_of(command)
-                .ok_or(("кавычка не закрыта", "a quotation mark is not closed"))?;
+            let words = words_of(command).ok_or(word!("a-quotation-mark-is-not-closed"))?;
             return match words.is_empty() {
-                true => Err(("после cmd: нужна команда", "a command is wanted behind cmd:").into()),
+                true => Err(said!("a-command-is-wanted-behind-cmd")),
                 false => Ok(Self::Program(words)),
             };
         }
         match text.strip_prefix("tcp:") {
             Some(address) if address.contains(':') => Ok(Self::Tcp(address.to_owned())),
-            Some(_) => Err(("нужно tcp:УЗЕЛ:ПОРТ", "tcp:HOST:PORT is wanted").into()),
+            Some(_) => Err(said!("tcp-host-port-is-wanted")),
             None => {
                 let russian = "нужно cmd:КОМАНДА или tcp:УЗЕЛ:ПОРТ";
                 Err((russian, "cmd:COMMAND or tcp:HOST:PORT is wanted").into())

@@ -36,7 +36,7 @@ use super::past::{Layered, Past, is_past};
 use super::snapshot::write_snapshot;
 
 use super::trees::{Records, State, Trees};
-use crate::units::Bilingual;
+use crate::units::{Bilingual, said};
 
 pub(crate) use share::Found as Meanwhile;
 
@@ -225,9 +225,9 @@ impl Vault {
         let mut report = OpenReport::default();
         // Where `head` tells how far the journal must reach, the trees need not be asked; else they are who knows.
         let by_files = match known.mark().is_some() || !had_trees {
-            true => Some(find(&files, || {
-                Err(StoreError::Tables { what: ("нет", "there are none").into() })
-            })),
+            true => {
+                Some(find(&files, || Err(StoreError::Tables { what: said!("there-are-none") })))
+            }
             false => None,
         };
         let brought = match by_files {
@@ -291,10 +291,7 @@ impl Vault {
             journal: None,
             left: None,
             head: None,
-            read_only: Some(ReadOnly {
-                reason: ("так его открыли", "so it was opened").into(),
-                by_choice: true,
-            }),
+            read_only: Some(ReadOnly { reason: said!("so-it-was-opened"), by_choice: true }),
             checkpoint_at: u64::MAX,
             journal_bytes: 0,
         })

@@ -21,7 +21,7 @@ use super::super::memory::MemoryTrees;
 use super::super::snapshot::load_snapshot;
 use super::super::trees::{Records, State, Trees, digests};
 use super::{OpenReport, Shelf};
-use crate::units::Bilingual;
+use crate::units::{Bilingual, Piece, said, word};
 
 /// Records brought to the end of the journal.
 pub(super) struct Brought {
@@ -64,30 +64,28 @@ pub(super) struct Found {
 fn replay(files: &Files, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
     let log = files.log;
     let mut state = memory.state()?;
-    let broken = |what: (&'static str, &'static str)| StoreError::Tables { what: what.into() };
+    let broken = |what: Piece| StoreError::Tables { what: what.into() };
     // At the transaction that was acknowledged last, the store must hold what it held then.
     let check = |state: &State| match files.known.mark() {
-        Some(mark) if mark.lsn == state.lsn && *mark != Mark::of(state) => Err(broken((
-            "записи не те, что были подтверждены",
-            "the records are not those that were confirmed",
-        ))),
+        Some(mark) if mark.lsn == state.lsn && *mark != Mark::of(state) => {
+            Err(broken(word!("the-records-are-not-those-that-were")))
+        }
         _ => Ok(()),
     };
     check(&state)?;
     if !log.reaches(state.lsn, last) {
         let empty = state.lsn == 0;
         return Err(broken(if empty {
-            ("таблиц нет", "there are no tables")
+            word!("there-are-no-tables")
         } else {
-            ("таблицы отстали от журнала", "the tables are behind the journal")
+            word!("the-tables-are-behind-the-journal")
         }));
     }
     let before = state.lsn;
     let mut touched = Vec::new();
     for lsn in before + 1..=last {
-        let payload = log.payload(lsn).ok_or_else(|| {
-            broken(("кадр журнала не читается", "a frame of the journal cannot be read"))
-        })?;
+        let payload =
+            log.payload(lsn).ok_or_else(|| broken(word!("a-frame-of-the-journal-cannot-be")))?;
         state.advance(lsn, payload.digests);
         check(&state)?;
         for op in &payload.ops {
@@ -104,10 +102,7 @@ fn replay(files: &Files, memory: MemoryTrees, mut counted: Digests, last: u64) -
     }
     counted.retain(|_, digest| *digest != Digest::default());
     if counted != state.digests {
-        return Err(broken((
-            "записи не совпадают с контрольной суммой",
-            "the records do not match their checksum",
-        )));
+        return Err(broken(word!("the-records-do-not-match-their-checksum")));
     }
     Ok(Brought { memory, frames: state.lsn - before, state, touched })
 }
@@ -149,9 +144,7 @@ pub(super) fn find(files: &Files, open: impl FnOnce() -> Result<Arc<dyn Trees>>)
     let was_emptied = files.had_trees && log.is_headless() && newest_snapshot == 0;
     let opened = opened.and_then(|found| match found.1.state.lsn {
         // sled makes new trees of broken ones: that they are empty then says nothing.
-        0 if was_emptied => {
-            Err(StoreError::Tables { what: ("пусты", "they are empty").into() })
-        }
+        0 if was_emptied => Err(StoreError::Tables { what: said!("they-are-empty") }),
         _ => Ok(found),
     });
     match opened {
@@ -172,13 +165,7 @@ pub(super) fn find(files: &Files, open: impl FnOnce() -> Result<Arc<dyn Trees>>)
 /// The records of the newest snapshot that is whole and from which the journal leads on.
 fn from_files(files: &Files, snapshots: &[(u64, PathBuf)], last: u64) -> Result<Brought> {
     let Files { disk, log, .. } = *files;
-    let mut why = StoreError::Tables {
-        what: (
-            "нет снимка, от которого ведёт журнал",
-            "there is no snapshot from which the journal leads",
-        )
-            .into(),
-    };
+    let mut why = StoreError::Tables { what: word!("there-is-no-snapshot-from-which-the").into() };
     let empty = (0, PathBuf::new());
     for (lsn, path) in snapshots.iter().rev().chain([&empty]) {
         if !log.reaches(*lsn, last) {

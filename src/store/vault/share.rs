@@ -8,6 +8,7 @@
 //!
 //! **Invariant**: a vault that is put down holds no file that another program may need, and writes nothing.
 
+use crate::units::said;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -80,7 +81,7 @@ impl Vault {
         let seen = trees.state()?.lsn;
         let log = Log::read_from(&*self.disk, &self.dir, seen + 1)?;
         if !log.reaches(seen, self.state.lsn) {
-            let what = ("таблицы отстали от журнала", "the tables are behind the journal").into();
+            let what = said!("the-tables-are-behind-the-journal");
             return Err(StoreError::Tables { what });
         }
         let frames = (seen + 1..=self.state.lsn).filter_map(|lsn| log.payload(lsn));

@@ -3,7 +3,7 @@
 use super::{PLAIN_FACT, Parsed, Parser, is_if, is_or, is_then};
 use crate::syntax::{Atom, Condition, ConditionalText, DerivedText, Parameter, none_of};
 use crate::token::TokenKind;
-use crate::units::name_key;
+use crate::units::{name_key, word};
 
 /// Plain effects, and those that hang on a condition or range over objects.
 type Effects = (Vec<Atom>, Vec<ConditionalText>);
@@ -72,10 +72,7 @@ impl Parser<'_> {
     fn deeper(&mut self) -> Parsed<()> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            let what = (
-                "не больше пятидесяти скобок одна в другой",
-                "no more than fifty brackets within each other",
-            );
+            let what = word!("no-more-than-fifty-brackets-within-each");
             return Err(self.expected(what));
         }
         Ok(())
@@ -102,10 +99,7 @@ impl Parser<'_> {
                 Ok(variables)
             }
             None => Err(self.missing(open)),
-            _ => {
-                Err(self
-                    .expected(("переменная вида «?x» или «)»", "a variable such as “?x” or “)”")))
-            }
+            _ => Err(self.expected(word!("a-variable-such-as-x-or"))),
         }
     }
 
@@ -123,7 +117,7 @@ impl Parser<'_> {
                 self.advance();
                 Ok(())
             }
-            _ => Err(self.expected(("«ТО»", "“THEN”"))),
+            _ => Err(self.expected(word!("then"))),
         }
     }
 
@@ -135,7 +129,7 @@ impl Parser<'_> {
             variable: term.name.clone(),
         };
         if let Some(term) = atom.args.iter().find(|term| !term.is_variable) {
-            let what = ("переменная вида «?x»", "a variable such as “?x”");
+            let what = word!("a-variable-such-as-x");
             return Err(self.expected_at(what, term.name.at.span));
         }
         let parameters = atom.args.iter().map(parameter).collect();
@@ -144,7 +138,7 @@ impl Parser<'_> {
                 self.advance();
                 self.one()?
             }
-            _ => return Err(self.expected(("«ЕСЛИ» и условие", "“IF” and a condition"))),
+            _ => return Err(self.expected(word!("if-and-a-condition"))),
         };
         self.text.document.derived.push(DerivedText { parameters, atom, condition });
         Ok(())
@@ -214,10 +208,7 @@ impl Parser<'_> {
                 }
                 Ok(())
             }
-            _ => Err(self.expected((
-                "факт без «НЕ»; то, что перестаёт быть верным, пишут в «Эффект-»",
-                "a fact without “NOT”; what ceases to hold is written under “Effect-:”",
-            ))),
+            _ => Err(self.expected(word!("a-fact-without-not-what-ceases-to"))),
         }
     }
 

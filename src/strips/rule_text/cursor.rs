@@ -9,7 +9,7 @@ use crate::fault::RuleFault;
 use crate::hint::perhaps;
 use crate::syntax::Name;
 use crate::token::TokenKind;
-use crate::units::{Bilingual, name_key, nearest_name};
+use crate::units::{Bilingual, Piece, name_key, nearest_name, said};
 
 /// What stands before a colon.
 pub(super) enum Ahead {
@@ -68,7 +68,7 @@ impl<'a> Parser<'a> {
             && self.kind_after(2) == Some(TokenKind::Colon)
     }
 
-    pub(super) fn name(&mut self, expected: (&'static str, &'static str)) -> Parsed<Name> {
+    pub(super) fn name(&mut self, expected: Piece) -> Parsed<Name> {
         match self.kind() {
             Some(TokenKind::Word(_)) if self.heading_ahead().is_none() => Ok(self.take_name()),
             _ => Err(self.expected(expected)),
@@ -88,15 +88,11 @@ impl<'a> Parser<'a> {
         Name::new(if trimmed.is_empty() { text } else { trimmed }, self.source, token.span())
     }
 
-    pub(super) fn expected(&self, expected: (&'static str, &'static str)) -> RuleFault {
+    pub(super) fn expected(&self, expected: Piece) -> RuleFault {
         self.expected_at(expected, self.here())
     }
 
-    pub(super) fn expected_at(
-        &self,
-        expected: (&'static str, &'static str),
-        at: SourceSpan,
-    ) -> RuleFault {
+    pub(super) fn expected_at(&self, expected: Piece, at: SourceSpan) -> RuleFault {
         let found = match self.kind() {
             Some(TokenKind::Strange(signs)) => {
                 let sign = excerpt(signs);
@@ -109,7 +105,7 @@ impl<'a> Parser<'a> {
                 let token = self.tokens[self.next];
                 Bilingual::quoted(&excerpt(&self.source.text()[token.start..token.end]))
             }
-            None => ("конец файла", "the end of the file").into(),
+            None => said!("the-end-of-the-file"),
         };
         RuleFault::new(self.source, RuleError::Syntax { expected: expected.into(), found, at })
     }
@@ -123,12 +119,7 @@ impl<'a> Parser<'a> {
         let near = nearest_name(heading, HEADINGS.iter().map(|&(name, _)| name));
         let help = Some(match near {
             Some(near) => perhaps(near),
-            None => Bilingual::new(
-                "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, Желательно, \
-                 Типы, Предикаты, Объекты, Включить, Карта, По-английски",
-                "sections: Action, Facts, Assumptions, Initial, Goal, Preferably, Types, Predicates, Objects, \
-                 Include, Map, In English",
-            ),
+            None => said!("sections-action-facts-assumptions-initial-goal-preferably"),
         });
         RuleFault::new(
             self.source,

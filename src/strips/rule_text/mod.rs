@@ -40,7 +40,7 @@ use crate::syntax::{
     PhraseText, PreferenceText, Signature, Term,
 };
 use crate::token::{Token, TokenKind, tokens};
-use crate::units::{Language, Source, name_key};
+use crate::units::{Language, Piece, Source, name_key, word};
 
 /// Beyond this many faults a text is not a rule file, and nobody reads on.
 const MAX_FAULTS: usize = 50;
@@ -167,7 +167,7 @@ impl<'a> Parser<'a> {
 
     fn action(&mut self) -> Parsed<()> {
         self.end_action();
-        let name = self.name(("имя действия", "the name of an action"))?;
+        let name = self.name(word!("the-name-of-an-action"))?;
         self.text.document.actions.push(ActionText::new(name));
         Ok(())
     }
@@ -177,17 +177,11 @@ impl<'a> Parser<'a> {
         let opened = (self.kind() == Some(TokenKind::Open)).then(|| self.advance());
         let here = self.here();
         let Some(Ahead::Known(heading, length)) = self.heading_ahead() else {
-            return Err(self.expected((
-                "«Параметры:», «Предусловие:», «Эффект+:» или «Эффект-:»",
-                "“Parameters:”, “Precondition:”, “Effect+:” or “Effect-:”",
-            )));
+            return Err(self.expected(word!("parameters-precondition-effect-or-effect")));
         };
         self.next += length;
         if self.text.document.actions.is_empty() {
-            return Err(self.expected_at(
-                ("«Действие: имя» перед его частями", "“Action: name” before its parts"),
-                here,
-            ));
+            return Err(self.expected_at(word!("action-name-before-its-parts"), here));
         }
         match heading {
             Heading::Parameters => {
@@ -240,7 +234,7 @@ impl<'a> Parser<'a> {
             }
             None => Err(self.missing(open)),
             _ if self.heading_ahead().is_some() || self.opens_part() => Err(self.missing(open)),
-            _ => Err(self.expected(("«)» или следующий факт", "“)” or the next fact"))),
+            _ => Err(self.expected(word!("or-the-next-fact"))),
         }
     }
 
@@ -266,7 +260,7 @@ impl<'a> Parser<'a> {
     /// `свет 2.5 ПОМЕЩЕНИЕ-ОСВЕЩЕНО_(Комната-А)`: what is wanted where it can be had, and what it costs if not.
     fn wishes(&mut self) -> Parsed<()> {
         while matches!(self.kind(), Some(TokenKind::Word(_))) && self.heading_ahead().is_none() {
-            let name = self.name(("имя желания", "the name of a preference"))?;
+            let name = self.name(word!("the-name-of-a-preference"))?;
             let is_number = |word: &str| word.starts_with(|sign: char| sign.is_ascii_digit());
             let weight = match self.kind() {
                 Some(TokenKind::Word(word)) if is_number(word) => self.cost()?,
@@ -288,12 +282,9 @@ impl<'a> Parser<'a> {
                     self.advance();
                 }
                 Some(TokenKind::Word(_)) if self.heading_ahead().is_none() => {
-                    let kind = self.name(("тип", "a type"))?;
+                    let kind = self.name(word!("a-type"))?;
                     let Some(TokenKind::Variable(_)) = self.kind() else {
-                        return Err(self.expected((
-                            "переменная вида «?x» после типа",
-                            "a variable such as “?x” after the type",
-                        )));
+                        return Err(self.expected(word!("a-variable-such-as-x-after-the")));
                     };
                     parameters.push(Parameter { kinds: vec![kind], variable: self.take_name() });
                 }
@@ -351,12 +342,9 @@ impl<'a> Parser<'a> {
         let differs = match self.kind() {
             Some(TokenKind::Equal) => false,
             Some(TokenKind::NotEqual) => true,
-            _ if left.is_variable => return Err(self.expected(("«=» или «≠»", "“=” or “≠”"))),
+            _ if left.is_variable => return Err(self.expected(word!("or"))),
             _ => {
-                return Err(self.expected((
-                    "«(» после имени предиката",
-                    "“(” after the name of the predicate",
-                )));
+                return Err(self.expected(word!("after-the-name-of-the-predicate")));
             }
         };
         self.advance();
@@ -365,7 +353,7 @@ impl<'a> Parser<'a> {
     }
 
     pub(super) fn atom(&mut self) -> Parsed<Atom> {
-        let predicate = self.name(("имя предиката", "the name of a predicate"))?;
+        let predicate = self.name(word!("the-name-of-a-predicate"))?;
         let open = self.advance();
         let mut args = Vec::new();
         loop {
@@ -386,16 +374,14 @@ impl<'a> Parser<'a> {
                 _ if self.opens_part() || self.heading_ahead().is_some() => {
                     return Err(self.missing(open));
                 }
-                _ => return Err(self.expected(("«,» или «)»", "“,” or “)”"))),
+                _ => return Err(self.expected(word!("or-2"))),
             }
         }
     }
 
     fn term(&mut self) -> Parsed<Term> {
         if !matches!(self.kind(), Some(TokenKind::Word(_) | TokenKind::Variable(_))) {
-            return Err(
-                self.expected(("имя объекта или переменная", "an object’s name or a variable"))
-            );
+            return Err(self.expected(word!("an-objects-name-or-a-variable")));
         }
         let starts_typed = matches!(self.kind(), Some(TokenKind::Word(_)))
             && matches!(self.kind_after(1), Some(TokenKind::Word(_) | TokenKind::Variable(_)));
@@ -419,7 +405,7 @@ impl<'a> Parser<'a> {
                 }
                 Some(TokenKind::Dash) if open_group < declarations.len() => {
                     self.advance();
-                    let kind = self.name(("имя типа", "the name of a type"))?;
+                    let kind = self.name(word!("the-name-of-a-type"))?;
                     // A type stands for all names before it in its line.
                     let mut next_start = kind.at.span.offset();
                     for declaration in declarations[open_group..].iter_mut().rev() {
@@ -434,7 +420,7 @@ impl<'a> Parser<'a> {
                     open_group = declarations.len();
                 }
                 Some(TokenKind::Strange(_) | TokenKind::Dash | TokenKind::Variable(_)) => {
-                    return Err(self.expected(("имя", "a name")));
+                    return Err(self.expected(word!("a-name")));
                 }
                 _ => return Ok(declarations),
             }
@@ -445,9 +431,9 @@ impl<'a> Parser<'a> {
     fn signatures(&mut self) -> Parsed<()> {
         self.text.document.predicates_closed = true;
         while matches!(self.kind(), Some(TokenKind::Word(_))) && self.heading_ahead().is_none() {
-            let name = self.name(("имя предиката", "the name of a predicate"))?;
+            let name = self.name(word!("the-name-of-a-predicate"))?;
             let Some(TokenKind::Open) = self.kind() else {
-                return Err(self.expected(("«(»", "“(”")));
+                return Err(self.expected(word!("opening-bracket")));
             };
             let open = self.advance();
             let mut args = Vec::new();
@@ -466,10 +452,7 @@ impl<'a> Parser<'a> {
                     }
                     None => return Err(self.missing(open)),
                     _ => {
-                        return Err(self.expected((
-                            "тип аргумента или «)»",
-                            "the type of an argument or “)”",
-                        )));
+                        return Err(self.expected(word!("the-type-of-an-argument-or")));
                     }
                 }
             }
@@ -487,25 +470,20 @@ impl<'a> Parser<'a> {
             if negated {
                 self.advance();
             }
-            let name = self.name((
-                "имя предиката, действия или типа",
-                "the name of a predicate, an action or a type",
-            ))?;
+            let name = self.name(word!("the-name-of-a-predicate-an-action"))?;
             let parameters = (self.kind() == Some(TokenKind::Open))
                 .then(|| self.variables_in_brackets())
                 .transpose()?;
             if self.kind() != Some(TokenKind::Equal) {
-                return Err(
-                    self.expected(("«=» и слова в кавычках", "“=” and words in quotation marks"))
-                );
+                return Err(self.expected(word!("and-words-in-quotation-marks")));
             }
             self.advance();
             let named = !negated && self.kind_after(1) == Some(TokenKind::Equal);
-            let second = named.then(|| self.name(("второе имя", "a second name"))).transpose()?;
+            let second = named.then(|| self.name(word!("a-second-name"))).transpose()?;
             if second.is_some() {
                 self.advance();
             }
-            let phrase = self.name(("слова в кавычках", "words in quotation marks"))?;
+            let phrase = self.name(word!("words-in-quotation-marks"))?;
             let text = PhraseText { language, negated, name, parameters, second, phrase };
             self.text.document.phrases.push(text);
         }
@@ -527,10 +505,7 @@ impl<'a> Parser<'a> {
                 Some(TokenKind::Variable(_)) => variables.push(self.take_name()),
                 None => return Err(self.missing(open)),
                 _ => {
-                    return Err(self.expected((
-                        "переменная вида «?x» или «)»",
-                        "a variable such as “?x” or “)”",
-                    )));
+                    return Err(self.expected(word!("a-variable-such-as-x-or")));
                 }
             }
         }
@@ -546,7 +521,7 @@ impl<'a> Parser<'a> {
             return Err(RuleFault::new(self.source, RuleError::Cost { text, at }));
         }
         let Some(TokenKind::Word(word)) = self.kind() else {
-            return Err(self.expected(("число", "a number")));
+            return Err(self.expected(word!("a-number")));
         };
         let at = self.advance();
         Amount::parse(word).ok_or_else(|| {
@@ -565,20 +540,16 @@ impl<'a> Parser<'a> {
             self.next += 1;
         }
         if path.is_empty() {
-            return Err(
-                self.expected_at(("имя файла", "the name of a file"), (colon_end - 1, 1).into())
-            );
+            return Err(self.expected_at(word!("the-name-of-a-file"), (colon_end - 1, 1).into()));
         }
         let start = colon_end + raw.find(path).unwrap_or(0);
         Ok(Name::new(path, self.source, (start, path.len()).into()))
     }
 }
 
-const SECTION: (&str, &str) =
-    ("раздел: «Действие:», «Факты:» и так далее", "a section: “Action:”, “Facts:” and so on");
+const SECTION: Piece = word!("a-section-action-facts-and-so-on");
 
-pub(super) const PLAIN_FACT: (&str, &str) =
-    ("факт вида «ИМЯ_(объект, …)»", "a fact such as “NAME_(object, …)”");
+pub(super) const PLAIN_FACT: Piece = word!("a-fact-such-as-name-object");
 
 fn is_or(word: &str) -> bool {
     matches!(name_key(word).as_str(), "или" | "or")

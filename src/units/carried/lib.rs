@@ -1,16 +1,25 @@
 //! [`carried!`]: what the compiler puts in the place of a text that the program carries.
 
-use proc_macro::{TokenStream, TokenTree};
+use proc_macro::{Span, TokenStream, TokenTree};
 
 /// A text file of the sources as part of the program: a value for a `static` of the type `Carried`.
 ///
 /// The file stands beside the one that calls, as for [`include_str!`]; its path may come in several pieces.
 #[proc_macro]
 pub fn carried(path: TokenStream) -> TokenStream {
+    let at = first(path.clone()).map_or_else(Span::call_site, |first| first.span());
     let pieces = literals(path);
     // The compiler reads the path where the caller stands, and sees when the file changes.
     let plain = format!("include_str!(concat!({}))", pieces.join(","));
-    value(&pieces, &plain).parse().expect("what stands above is an expression")
+    value(at, &pieces, &plain).parse().expect("what stands above is an expression")
+}
+
+/// The first literal: what another macro hands on stands where that was called, and so does the way from there.
+fn first(tokens: TokenStream) -> Option<TokenTree> {
+    tokens.into_iter().next().and_then(|token| match token {
+        TokenTree::Group(group) => first(group.stream()),
+        other => Some(other),
+    })
 }
 
 /// The literals of a macro's argument, those that another macro hands on among them.
@@ -23,13 +32,13 @@ fn literals(tokens: TokenStream) -> Vec<String> {
 }
 
 #[cfg(not(feature = "packed"))]
-fn value(_pieces: &[String], plain: &str) -> String {
+fn value(_at: Span, _pieces: &[String], plain: &str) -> String {
     format!("::std::sync::LazyLock::new(|| {plain})")
 }
 
 #[cfg(feature = "packed")]
-fn value(pieces: &[String], plain: &str) -> String {
-    let caller = proc_macro::Span::call_site().local_file().expect("a macro is called in a file");
+fn value(at: Span, pieces: &[String], plain: &str) -> String {
+    let caller = at.local_file().expect("a macro is called in a file");
     let path: String = pieces.iter().map(|piece| piece.trim_matches('"')).collect();
     let path = caller.with_file_name(path);
     let text = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));

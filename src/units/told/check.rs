@@ -196,7 +196,7 @@ fn told_in(folder: &Path) -> Vec<(String, BTreeSet<String>)> {
             let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
             let code = code.collect::<Vec<_>>().join("\n");
             // A message in one language has the language before it.
-            for (name, due) in [("said", ""), ("told", ",")] {
+            for (name, due) in [("said", ""), ("word", ""), ("told", ",")] {
                 for call in code.split(&format!("{name}!(")).skip(1) {
                     let mut parts = call.splitn(3, '"');
                     if let (Some(head), Some(message), Some(rest)) =

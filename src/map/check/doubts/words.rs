@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Doubter, Spot};
 use crate::fault::{MapError, Record};
-use crate::units::{name_key, nearest_name};
+use crate::units::{Piece, name_key, nearest_name, word};
 use crate::{Mark, Properties, TypeKind, is_dark, is_on, is_open};
 
 /// What the program and its own rules know of a kind of thing or room.
@@ -37,8 +37,8 @@ impl Doubter<'_> {
         for replica in world.replicas.values() {
             let record = Record::Replica(replica.id);
             let own = &replica.properties;
-            self.named(record, own, Mark::KeyOf, ("дверь", "door"), &doors);
-            self.named(record, own, Mark::KeptOn, ("вещь", "thing"), &things);
+            self.named(record, own, Mark::KeyOf, word!("door-2"), &doors);
+            self.named(record, own, Mark::KeptOn, word!("thing"), &things);
             self.switched(record, own, world.has_trait(replica.id, "device"));
         }
         for object in world.objects.values() {
@@ -49,7 +49,7 @@ impl Doubter<'_> {
             let holder = Mark::KeyWith.of(&door.properties).filter(|(_, who)| !is_operator(who));
             if holder.is_some() {
                 let record = Record::Door(door.id);
-                self.named(record, &door.properties, Mark::KeyWith, ("человек", "person"), &things);
+                self.named(record, &door.properties, Mark::KeyWith, word!("person"), &things);
             }
         }
         for area in world.areas.values() {
@@ -70,7 +70,7 @@ impl Doubter<'_> {
         record: Record,
         properties: &Properties,
         mark: Mark,
-        what: (&'static str, &'static str),
+        what: Piece,
         known: &Known<'_>,
     ) {
         let Some((property, value)) = mark.of(properties) else { return };
@@ -103,13 +103,7 @@ impl Doubter<'_> {
         }
     }
 
-    fn value(
-        &mut self,
-        record: Record,
-        property: &str,
-        value: &str,
-        wanted: (&'static str, &'static str),
-    ) {
+    fn value(&mut self, record: Record, property: &str, value: &str, wanted: Piece) {
         let error = MapError::UnknownState {
             property: property.to_owned(),
             value: value.to_owned(),
@@ -141,9 +135,8 @@ impl Doubter<'_> {
     }
 }
 
-const ON_OFF: (&str, &str) = ("Включено или Выключено", "on or off");
-const STATES: (&str, &str) =
-    ("Включено, Выключено, Открыто или Закрыто", "on, off, open or closed");
+const ON_OFF: Piece = word!("on-or-off");
+const STATES: Piece = word!("on-off-open-or-closed");
 
 /// The names of all things of a sort.
 struct Known<'n> {

@@ -13,7 +13,7 @@ use super::verbs::{self, Edit, NewRecord, RobotSaid};
 use super::word::{Done, Slips, misprint, text_of, unknown_field, wrong_kind};
 use crate::TypeKind;
 use crate::fault::MapError;
-use crate::units::{Bilingual, Source, name_key};
+use crate::units::{Source, name_key, said, word};
 
 /// Edits that make one transaction.
 ///
@@ -131,7 +131,7 @@ impl Edits {
         }
         let Some(list) = root.entry("edit") else { return };
         if !matches!(list.node.value, Value::List(_)) {
-            let wanted = ("список шагов [[edit]]", "a list of steps [[edit]]");
+            let wanted = word!("a-list-of-steps-edit");
             reading.slips.misprints.push(*wrong_kind(&list.node, wanted));
         }
         let steps = list.node.elements();
@@ -265,9 +265,8 @@ impl Reading<'_> {
     fn section(&mut self, kind: Kind, section: &Entry) -> Done {
         if !matches!(section.node.value, Value::Table(_)) {
             let word = kind.word();
-            let expected =
-                Bilingual::new(format!("таблицы [{word}.КЛЮЧ]"), format!("tables [{word}.KEY]"));
-            let found = ("значение", "a value").into();
+            let expected = said!("tables-key", word);
+            let found = said!("a-value");
             return Err(misprint(MapError::WrongKind { found, expected }, &section.key_span));
         }
         for record in section.node.entries() {

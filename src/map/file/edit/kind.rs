@@ -3,6 +3,7 @@
 use crate::World;
 use crate::fault::Record;
 use crate::units::InOrder as _;
+use crate::units::{Piece, word};
 
 /// The kinds of records that bear names. The order is that in which a name is understood that several kinds bear.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -49,30 +50,30 @@ impl Kind {
         }
     }
 
-    pub(super) fn title(self) -> (&'static str, &'static str) {
+    pub(super) fn title(self) -> Piece {
         match self {
-            Self::Replica => ("Экземпляр", "Replica"),
-            Self::Area => ("Помещение", "Area"),
-            Self::Door => ("Дверь", "Door"),
-            Self::Place => ("Место", "Place"),
-            Self::Map => ("Карта", "Map"),
-            Self::Zone => ("Зона", "Zone"),
-            Self::Object => ("Объект", "Object"),
-            Self::Orthoframe => ("Ортофрейм", "Orthoframe"),
+            Self::Replica => word!("replica-title"),
+            Self::Area => word!("area-title"),
+            Self::Door => word!("door"),
+            Self::Place => word!("place-title"),
+            Self::Map => word!("map"),
+            Self::Zone => word!("zone-title"),
+            Self::Object => word!("object-title"),
+            Self::Orthoframe => word!("orthoframe"),
         }
     }
 
     /// The kind within a sentence.
-    pub(super) fn noun(self) -> (&'static str, &'static str) {
+    pub(super) fn noun(self) -> Piece {
         match self {
-            Self::Replica => ("экземпляр", "replica"),
-            Self::Area => ("помещение", "area"),
-            Self::Door => ("дверь", "door"),
-            Self::Place => ("место", "place"),
-            Self::Map => ("карта", "map"),
-            Self::Zone => ("зона", "zone"),
-            Self::Object => ("объект", "object"),
-            Self::Orthoframe => ("ортофрейм", "Orthoframe"),
+            Self::Replica => word!("replica"),
+            Self::Area => word!("area"),
+            Self::Door => word!("door-2"),
+            Self::Place => word!("place"),
+            Self::Map => word!("map-2"),
+            Self::Zone => word!("zone"),
+            Self::Object => word!("object"),
+            Self::Orthoframe => word!("orthoframe-title"),
         }
     }
 

@@ -1,5 +1,6 @@
 //! An edit as a value: one variant a verb, with what can be said beside it.
 
+use crate::units::word;
 use serde::Deserialize;
 
 use super::super::decode::{decode, likely, shortened};
@@ -379,10 +380,7 @@ pub(super) fn read_step(slips: &mut Slips<'_>, node: &Node) -> Option<Edit> {
 
 fn no_verb(node: &Node, verbs: &[&str]) -> Box<Misprint> {
     match node.entries().first() {
-        None => wrong_kind(
-            node,
-            ("шаг правки: таблица с глаголом", "a step of an edit: a table with a verb"),
-        ),
+        None => wrong_kind(node, word!("a-step-of-an-edit-a-table")),
         Some(first) => misprint(
             MapError::UnknownVerb {
                 found: shortened(&first.key),

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::super::decode::{LIST, NOTHING, TABLE, TEXT, a_number, a_text, likely, shortened};
 use super::super::node::{Entry, Misprint, Node, Span, Value};
 use crate::fault::MapError;
-use crate::units::Bilingual;
+use crate::units::{Bilingual, Piece};
 
 /// What is found while a text is read.
 pub(super) struct Slips<'e> {
@@ -35,7 +35,7 @@ pub(super) fn text_of(node: &Node) -> Outcome<&str> {
     node.text().ok_or_else(|| wrong_kind(node, TEXT))
 }
 
-pub(super) fn wrong_kind(node: &Node, expected: (&'static str, &'static str)) -> Box<Misprint> {
+pub(super) fn wrong_kind(node: &Node, expected: Piece) -> Box<Misprint> {
     let found = match &node.value {
         Value::Nothing => NOTHING.into(),
         Value::Bool(b) => Bilingual::quoted(&b.to_string()),

@@ -6,7 +6,7 @@ use super::super::said::table;
 use super::standing::{self, Stands};
 use super::{Done, Frame, Kind, MapError, Outcome, Record, Span, Step, Steps, frame_of, misprint};
 use crate::file::decode::shortened;
-use crate::units::AreaId;
+use crate::units::{AreaId, said};
 use crate::{DoorMount, Item, ItemLink, MapLink, OpensTo, SideRef};
 
 /// What is made of Orthoframes.
@@ -271,7 +271,7 @@ impl Steps<'_> {
                 return Ok((area, text[dot + 1..].to_owned()));
             }
         }
-        let wanted = ("«помещение.сторона»", "“area.side”").into();
+        let wanted = said!("area-side");
         let error = match text.split_once('.') {
             None => MapError::BadReference { text: shortened(text), wanted },
             Some((area, _)) => MapError::UnknownReference {

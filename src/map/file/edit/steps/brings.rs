@@ -11,7 +11,7 @@ use crate::file::schema::{
     AreaFile, DoorFile, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, TypeFile,
 };
 use crate::units::{
-    AreaId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId,
+    AreaId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, ZoneId, said,
 };
 use crate::{DomainMap, TypeKind};
 
@@ -161,7 +161,7 @@ impl Steps<'_> {
 
     fn new_type(&mut self, kind: TypeKind, file: &TypeFile, told: &Told) -> Done {
         if self.world.types.list(kind).named(&file.name).is_some() {
-            let (what, name) = (("Тип", "Type").into(), shortened(&file.name));
+            let (what, name) = (said!("type-title"), shortened(&file.name));
             return Err(misprint(MapError::AlreadyThere { what, name }, &told.key_span));
         }
         let next = self.ids.types.entry(kind).or_insert(1);

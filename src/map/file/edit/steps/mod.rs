@@ -27,7 +27,7 @@ use crate::file::decode::{MODEST_NUMBER, a_number, expected_words};
 use crate::file::node::{Entry, Misprint, Node, Span};
 use crate::file::read::{MOST_GUESSES, Reader};
 use crate::file::schema::{Coordinates, Number};
-use crate::units::{Cm, Deg, Frame, ReplicaId, ZoneId};
+use crate::units::{Cm, Deg, Frame, Piece, ReplicaId, ZoneId};
 
 use late::Late;
 use names::Keys;
@@ -106,7 +106,7 @@ impl<'t> Step<'t> {
         misprint(MapError::MissingField { field }, self.key_span())
     }
 
-    fn bad(&self, field: &str, message: (&'static str, &'static str)) -> Box<Misprint> {
+    fn bad(&self, field: &str, message: Piece) -> Box<Misprint> {
         misprint(MapError::BadValue { message: message.into() }, self.at(field))
     }
 }

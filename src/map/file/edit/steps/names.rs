@@ -8,7 +8,7 @@ use super::{Kind, MapError, Outcome, Record, Span, Step, Steps, misprint};
 use crate::file::decode::{likely, shortened};
 use crate::file::read::{Behind, Names};
 use crate::units::{
-    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key,
+    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key, word,
 };
 use crate::{TypeKind, World};
 
@@ -141,7 +141,7 @@ impl Steps<'_> {
                 if let Some(error) = self.of_another_kind(name, kinds) {
                     return Err(misprint(error, at));
                 }
-                let what = if let [kind] = kinds { kind.title() } else { ("Имя", "Name") };
+                let what = if let [kind] = kinds { kind.title() } else { word!("name") };
                 let (what, nearest) = (what.into(), self.nearest(name, kinds));
                 let error = MapError::UnknownReference { what, name: shortened(name), nearest };
                 Err(misprint(error, at))

@@ -4,7 +4,7 @@ use super::super::verbs::Edit;
 use super::{Done, Kind, MapError, Record, Span, Step, Steps, misprint, standing};
 use crate::file::decode::{likely, shortened};
 use crate::file::node::Entry;
-use crate::units::{AreaId, Bilingual, name_key};
+use crate::units::{AreaId, Bilingual, name_key, said};
 use crate::{Extent, Forms};
 
 impl Steps<'_> {
@@ -142,7 +142,7 @@ impl Steps<'_> {
                 &|draft| draft.file.map.as_ref() == Some(&key),
             ),
             Record::Place(id) if self.world.robot.start == Some(id) => {
-                vec![("робот начинает отсюда", "the robot starts from here").into()]
+                vec![said!("the-robot-starts-from-here")]
             }
             _ => Vec::new(),
         }

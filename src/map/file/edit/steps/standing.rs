@@ -5,7 +5,7 @@ use super::things::EITHER;
 use super::{Coordinates, Done, Kind, MapError, Number, Outcome, Record, Step, Steps};
 use super::{cm, frame_of, misprint};
 use crate::file::node::Value;
-use crate::units::{AreaId, Cm, Deg, Frame, MapId};
+use crate::units::{AreaId, Cm, Deg, Frame, MapId, word};
 use crate::{DomainMap, LiftStop, MapItem};
 
 /// Where a step says that something stands, and whether that is the base.
@@ -97,7 +97,7 @@ impl Steps<'_> {
         (to, by): (Option<&Coordinates>, Option<&Coordinates>),
     ) -> Done {
         if let Some(field) = ["area", "carry"].into_iter().find(|f| step.entry(f).is_some()) {
-            let message = ("у помещения такого нет", "an area has no such thing");
+            let message = word!("an-area-has-no-such-thing");
             return Err(step.bad(field, message));
         }
         let (field, told, is_offset) = match (to, by) {
@@ -109,10 +109,7 @@ impl Steps<'_> {
         let on = |map: &crate::Map| map.items.iter().position(|item| item.area == area);
         let placed = self.world.maps.values().find_map(|map| Some((map.id, on(map)?)));
         let Some((map, no)) = placed else {
-            let message = (
-                "помещение не стоит ни на одной карте: поставьте его шагом stand",
-                "the area stands on no map: put it on one by stand",
-            );
+            let message = word!("the-area-stands-on-no-map-put");
             return Err(misprint(MapError::BadValue { message: message.into() }, step.span()));
         };
         let at = step.at(field);

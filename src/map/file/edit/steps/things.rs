@@ -7,9 +7,9 @@ use super::{cm, misprint, too_large};
 use crate::file::decode::shortened;
 use crate::file::node::{Entry, Node, Value};
 use crate::file::schema::{At, Coordinates, Number, PlaceFile, ReplicaFile};
-use crate::units::{AreaId, PlaceId, Point, ReplicaId};
+use crate::units::{AreaId, Piece, PlaceId, Point, ReplicaId, word};
 
-pub(super) const EITHER: (&str, &str) = ("дайте либо to, либо by", "give either to or by");
+pub(super) const EITHER: Piece = word!("give-either-to-or-by");
 
 /// Where something is told to stand.
 struct Spot {
@@ -138,16 +138,10 @@ impl Steps<'_> {
             return Ok(Spot { at, angle: turned });
         };
         if at.is_some() {
-            return Err(step.bad("pose", ("дайте либо at, либо pose", "give either at or pose")));
+            return Err(step.bad("pose", word!("give-either-at-or-pose")));
         }
         let Some((_, frame)) = self.start.placement(area) else {
-            return Err(step.bad(
-                "pose",
-                (
-                    "помещение ещё не стоит на карте: дайте at в его системе координат",
-                    "the room stands on no map yet: give at in its own frame",
-                ),
-            ));
+            return Err(step.bad("pose", word!("the-room-stands-on-no-map-yet")));
         };
         let place = frame.invert(Point::new(told[0].get(), told[1].get()));
         let height = told.get(2).map(|z| z.get() - frame.z.get());
@@ -248,10 +242,7 @@ impl Steps<'_> {
                 self.carriers.insert(id);
                 Ok(())
             }
-            _ => Err(step.bad(
-                "carry",
-                ("carry: на точке ничего не стоит", "carry: nothing stands on a place"),
-            )),
+            _ => Err(step.bad("carry", word!("carry-nothing-stands-on-a-place"))),
         }
     }
 

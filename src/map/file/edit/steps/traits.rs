@@ -7,7 +7,7 @@ use crate::file::decode::shortened;
 use crate::file::node::{Entry, Value};
 use crate::file::records::door_state;
 use crate::file::schema::Number;
-use crate::units::nearest_name;
+use crate::units::{nearest_name, said};
 use crate::{DoorStatus, Properties};
 
 /// Kinds that have properties.
@@ -55,7 +55,7 @@ impl Steps<'_> {
     ) -> Done {
         let record = self.with_properties(step, name, side, kind)?;
         if self.properties(step, record, side)?.remove(property).is_none() {
-            let (what, nearest) = (("Свойство", "Property").into(), None);
+            let (what, nearest) = (said!("property"), None);
             let error = MapError::UnknownReference { what, name: property.to_owned(), nearest };
             return Err(misprint(error, step.at("property")));
         }
@@ -95,7 +95,7 @@ impl Steps<'_> {
                 let Some(at) = base.iter().position(|vector| vector.id == side) else {
                     let ids = base.iter().map(|vector| vector.id.as_str());
                     let nearest = nearest_name(side, ids).map(str::to_owned);
-                    let (what, name) = (("Сторона", "Side").into(), shortened(side));
+                    let (what, name) = (said!("side"), shortened(side));
                     let error = MapError::UnknownReference { what, name, nearest };
                     return Err(misprint(error, step.span()));
                 };

@@ -8,7 +8,7 @@ use crate::file::decode::shortened;
 use crate::file::node::{Node, Value};
 use crate::file::schema::{Coordinates, Number, ZoneFile, ZoneWord};
 use crate::file::write;
-use crate::units::ZoneId;
+use crate::units::{ZoneId, word};
 
 /// A zone as it is told so far.
 pub(super) struct Draft {
@@ -104,21 +104,18 @@ impl Steps<'_> {
     ) -> Done {
         let corners = self.zone_mut(id).points.clone();
         let Some([x, y]) = corners.first() else {
-            let message = (
-                "зона состоит из помещений: её не сдвинуть, назовите другие в zone … rooms",
-                "the zone is made of areas and cannot be moved; name others by zone … rooms",
-            );
+            let message = word!("the-zone-is-made-of-areas-and");
             return Err(misprint(MapError::BadValue { message: message.into() }, step.span()));
         };
         if let Some(field) = ["area", "carry"].into_iter().find(|f| step.entry(f).is_some()) {
-            return Err(step.bad(field, ("у зоны такого нет", "a zone has no such thing")));
+            return Err(step.bad(field, word!("a-zone-has-no-such-thing")));
         }
         let (by, field) = match by {
             (Some(to), None) => ([to.x.get() - x.get(), to.y.get() - y.get()], "to"),
             (None, Some(by)) => ([by.x.get(), by.y.get()], "by"),
             (None, None) => return Err(step.missing("to")),
             (Some(_), Some(_)) => {
-                return Err(step.bad("by", ("дайте либо to, либо by", "give either to or by")));
+                return Err(step.bad("by", word!("give-either-to-or-by")));
             }
         };
         let at = step.at(field);

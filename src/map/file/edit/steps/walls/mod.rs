@@ -16,7 +16,7 @@ use crate::file::corners::letters;
 use crate::file::decode::shortened;
 use crate::file::node::{Node, Value};
 use crate::file::schema::Number;
-use crate::units::{AreaId, Deg, Frame, Gather as _, OrFrId, Point};
+use crate::units::{AreaId, Deg, Frame, Gather as _, OrFrId, Point, said, word};
 use crate::{BaseVector, Item, MapItem, Orthoframe, Permeability};
 
 /// Shorter than this is no side, cm.
@@ -50,7 +50,7 @@ impl Steps<'_> {
         let (own, _) = self.own_base(area, item, step)?;
         let mut sides = self.world.orthoframes[&own].base.clone();
         let Some(index) = sides.iter().position(|s| s.id == side) else {
-            let (what, name, nearest) = (("Сторона", "Side").into(), shortened(side), None);
+            let (what, name, nearest) = (said!("side"), shortened(side), None);
             let error = MapError::UnknownReference { what, name, nearest };
             return Err(misprint(error, step.at("side")));
         };
@@ -59,10 +59,7 @@ impl Steps<'_> {
         let length = way.x.hypot(way.y);
         let fits = from > -LEAST && to < length + LEAST && to - from >= LEAST;
         if !fits {
-            let message = (
-                "отрезок стороны: от from до to, в пределах её длины",
-                "a stretch of the side: from … to, within its length",
-            );
+            let message = word!("a-stretch-of-the-side-from-to");
             return Err(misprint(MapError::BadValue { message: message.into() }, step.span()));
         }
         // What is left of a side and is no longer than that belongs to the stretch.
@@ -132,10 +129,7 @@ impl Steps<'_> {
         let area = self.area(name, step.span())?;
         let (own, no) = self.own_base(area, item, step)?;
         if self.world.orthoframes[&own].base.len() != points.len() {
-            let message = (
-                "углов столько же, сколько у помещения; новый угол делает cut",
-                "as many corners as the area has; cut makes a new one",
-            );
+            let message = word!("as-many-corners-as-the-area-has");
             return Err(step.bad("points", message));
         }
         let points: Vec<Point> = points.iter().map(|[x, y]| Point::new(x.get(), y.get())).collect();
@@ -174,7 +168,7 @@ impl Steps<'_> {
             None => None,
         };
         let Some(no) = found else {
-            let (what, nearest) = (("Часть помещения", "Item of the area").into(), None);
+            let (what, nearest) = (said!("item-of-the-area"), None);
             let name = shortened(item.unwrap_or("?"));
             return Err(misprint(MapError::UnknownReference { what, name, nearest }, step.span()));
         };
