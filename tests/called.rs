@@ -39,7 +39,7 @@ fn rooms_are_called_as_all_their_doors_are() {
     assert!(rooms.len() > 40, "{}", rooms.len());
     for (stem, doors) in &rooms {
         let name = stem.replace("_rm_", "_room_").replace('_', " ");
-        let area = area_called(&world, &name).unwrap_or_else(|| panic!("no {name}"));
+        let area = area_called(world, &name).unwrap_or_else(|| panic!("no {name}"));
         let of_room: BTreeSet<String> = world
             .doors
             .values()
@@ -128,7 +128,7 @@ fn the_next_of_a_row_is_not_denied_for_a_namesake() {
     let Some(clinic) = engine(&format!("../shared/data/{CLINIC}")) else { return };
     let world = clinic.world().unwrap();
     let has_patient = |name: &str| {
-        let area = area_called(&world, name)?;
+        let area = area_called(world, name)?;
         Some(world.replicas.values().any(|replica| {
             let kind = &world.objects[&replica.object].name_en;
             replica.area == area.id && kind.to_lowercase().contains("patient")

@@ -7,7 +7,7 @@
 //! # Invariants
 //!
 //! A file is read when the first of its messages is told. A message that is missing or broken tells its name and is no reason
-//! to stop: a test of each crate ([`messages!`]) finds it before.
+//! to stop: a test of each crate (`messages!`) finds it before.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -108,7 +108,7 @@ impl Messages {
         self.find(language, message, None, &arguments.collect()).unwrap_or_else(|| message.into())
     }
 
-    /// The same in both; [`said!`] writes it shorter.
+    /// The same in both; `said!` writes it shorter.
     #[must_use]
     pub fn both(
         &'static self,
@@ -223,7 +223,7 @@ impl<V: Value> Value for Option<V> {
     }
 }
 
-/// A message without arguments, by its name: a word of a table, told where it is needed. [`word!`] makes one.
+/// A message without arguments, by its name: a word of a table, told where it is needed. `word!` makes one.
 #[derive(Clone, Copy)]
 pub struct Piece {
     messages: fn() -> &'static Messages,
@@ -384,7 +384,7 @@ pub trait Fault: Listed {
     }
 }
 
-/// A fault that [`messages!`] names, so that a test sees all its messages.
+/// A fault that `messages!` names, so that a test sees all its messages.
 pub trait Listed {}
 
 /// What is said at a place of which there is nothing to say: «здесь», and of further ones «и здесь».
@@ -411,7 +411,7 @@ impl<F: Fault + miette::Diagnostic> InEnglish for F {
 
 /// The messages of a crate: the way from its root to `rules/messages`, its file there, and its faults.
 ///
-/// With them comes the test that both languages have every message that a fault or [`said!`] asks for, and no other.
+/// With them comes the test that both languages have every message that a fault or `said!` asks for, and no other.
 #[macro_export]
 macro_rules! messages {
     ($rules:literal, $file:literal $(, $fault:ty)* $(,)?) => {
