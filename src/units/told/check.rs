@@ -189,7 +189,9 @@ fn told_in(folder: &Path) -> Vec<(String, BTreeSet<String>)> {
     let mut told = Vec::new();
     for entry in fs::read_dir(folder).expect("the sources stand beside their manifest").flatten() {
         let path = entry.path();
-        if path.is_dir() && !path.join("Cargo.toml").exists() && !path.ends_with("target") {
+        let is_told_elsewhere = path.join("Cargo.toml").exists()
+            || ["target", "tests"].iter().any(|folder| path.ends_with(folder));
+        if path.is_dir() && !is_told_elsewhere {
             told.extend(told_in(&path));
         } else if path.extension().is_some_and(|ending| ending == "rs") {
             let text = fs::read_to_string(&path).expect("a source is a text");
