@@ -229,7 +229,9 @@ mod tests {
                 return told.join(" ");
             }
             let (token, after) = rest.split_at(rest.find([' ', ':']).unwrap_or(rest.len()));
-            let part = parts.iter().find(|(name, ..)| !name.is_empty() && *name == token);
+            // The fillings are such as have no other form in the case that a line asks for.
+            let bare = token.split('[').next().unwrap_or(token);
+            let part = parts.iter().find(|(name, ..)| !name.is_empty() && *name == bare);
             rest = after;
             match (part, after.strip_prefix(':')) {
                 (None, _) => told.push(token.replace('…', "")),

@@ -11,7 +11,7 @@ use crate::question::mark::{Mark, Pronoun};
 use crate::question::memory::{Exchange, Ordered};
 use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
-use crate::sets::{Set, set};
+use crate::sets::{Set, of_kind, set};
 use crate::words::{
     Case, Language, NounPhrase, Number, WordHints, phrase_at, word_keys, word_ranges,
 };
@@ -373,7 +373,9 @@ impl Asker<'_> {
     ) -> Option<String> {
         match thing {
             Thing::Entity(Entity::Door(_)) => {
-                let noun = set!("Concept.Doors").first()?;
+                let mut words = of_kind("Concept.");
+                let (_, noun) = words
+                    .find(|&(name, word)| name == "Doors" && Language::of(word) == language)?;
                 Some(NounPhrase::parse(noun, &WordHints::default()).case(Case::Accusative))
             }
             thing => self.kind_of(thing, language),
