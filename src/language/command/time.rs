@@ -179,7 +179,7 @@ mod tests {
                 "pick up the pen, then Go to the hall, and call the operator",
             ),
             ("Before going to the hall, take the pen", "take the pen, then go to the hall"),
-            ("Когда приедешь на кухню, включи свет", "приедешь на кухню, потом включи свет"),
+            ("Когда приедешь на кухню, включи свет", "поезжай на кухню, включи свет"),
             ("Open the door once you get to the hall", "go to the hall, then Open the door"),
             (
                 "Go to your charger, but first switch off the lamp",
