@@ -5,7 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
-use crate::units::{Bilingual, English, EnglishGroup, Fault as _, Language, Source, told};
+use crate::units::{Bilingual, EnglishGroup, Fault as _, Language, Source, by_lines, told};
 
 /// One fault of a corridor file.
 #[derive(Debug, Clone, PartialEq, Eq, crate::units::Fault)]
@@ -153,23 +153,16 @@ impl fmt::Display for CorridorFileError {
 
 impl CorridorFileError {
     fn told(&self, language: Language) -> String {
-        let mut told = told!(language, "corridor-file", count = self.faults.len());
-        for fault in &self.faults {
-            let (line, column) = self.source_text.position(fault.offset());
-            let (name, fault) = (self.source_text.name(), fault.tell(language));
-            told.push_str(&format!("\n{name}:{line}:{column}: {fault}"));
-        }
-        told
+        let title = told!(language, "corridor-file", count = self.faults.len());
+        by_lines(title, &self.source_text, &self.faults, language)
     }
 
     /// The faults as English tells them.
     #[must_use]
     pub fn in_english(&self) -> EnglishGroup<'_> {
         EnglishGroup {
-            all: self,
-            title: self.told(Language::English),
             help: Some(told!(Language::English, "corridor-file-help")),
-            faults: English::each(&self.faults),
+            ..EnglishGroup::new(self, self.told(Language::English), &self.faults)
         }
     }
 }

@@ -8,8 +8,7 @@ use super::limits::MAX_TEXT;
 use super::syntax::Span;
 use super::word::Note;
 use crate::units::{
-    Bilingual, English, EnglishGroup, Fault as _, InEnglish, InOrder as _, Language, Piece, Source,
-    told,
+    Bilingual, EnglishGroup, Fault as _, InEnglish, InOrder as _, Language, Piece, Source, told,
 };
 use thiserror::Error;
 
@@ -176,12 +175,7 @@ impl FileFaults {
     /// The faults as English tells them.
     #[must_use]
     pub fn in_english(&self) -> EnglishGroup<'_> {
-        EnglishGroup {
-            all: self,
-            title: self.told(Language::English),
-            help: None,
-            faults: English::each(&self.faults),
-        }
+        EnglishGroup::new(self, self.told(Language::English), &self.faults)
     }
 }
 

@@ -6,9 +6,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use crate::language::scan::Unread;
-use crate::units::{
-    Bilingual, English, EnglishGroup, Fault as _, InEnglish, Language, Source, told,
-};
+use crate::units::{Bilingual, EnglishGroup, Fault as _, InEnglish, Language, Source, told};
 
 /// One fault of a grammar file. The line in which it stands is left out; the rest works.
 #[derive(Debug, Clone, PartialEq, Eq, crate::units::Fault)]
@@ -125,11 +123,6 @@ impl LangFaults {
     /// The faults as English tells them.
     #[must_use]
     pub fn in_english(&self) -> EnglishGroup<'_> {
-        EnglishGroup {
-            all: self,
-            title: self.told(Language::English),
-            help: None,
-            faults: English::each(&self.faults),
-        }
+        EnglishGroup::new(self, self.told(Language::English), &self.faults)
     }
 }

@@ -22,12 +22,9 @@ impl RelationError {
     pub fn in_english(&self) -> Box<dyn Diagnostic + '_> {
         match self {
             Self::Rules(faults) => Box::new(faults.in_english()),
-            Self::Thresholds { faults, .. } => Box::new(EnglishGroup {
-                all: self,
-                title: self.english(),
-                help: None,
-                faults: English::each(faults),
-            }),
+            Self::Thresholds { faults, .. } => {
+                Box::new(EnglishGroup::new(self, self.english(), faults))
+            }
             other => Box::new(English(other)),
         }
     }

@@ -5,7 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 
 use super::error::RuleError;
-use crate::units::{English, EnglishGroup, Fault as _, InEnglish, Language, Source, told};
+use crate::units::{EnglishGroup, Fault as _, InEnglish, Language, Source, told};
 
 /// A [`RuleError`] together with the text that it was found in.
 #[derive(Debug, Clone)]
@@ -125,12 +125,7 @@ impl RuleFaults {
     /// The faults as English tells them.
     #[must_use]
     pub fn in_english(&self) -> EnglishGroup<'_> {
-        EnglishGroup {
-            all: self,
-            title: self.told(Language::English),
-            help: None,
-            faults: English::each(&self.0),
-        }
+        EnglishGroup::new(self, self.told(Language::English), &self.0)
     }
 }
 

@@ -70,6 +70,14 @@ pub struct EnglishGroup<'f> {
     pub faults: Vec<Box<dyn Diagnostic + 'f>>,
 }
 
+impl<'f> EnglishGroup<'f> {
+    /// Faults under a title, without a remedy of their own.
+    #[must_use]
+    pub fn new(all: &'f dyn Diagnostic, title: String, faults: &'f [impl InEnglish]) -> Self {
+        Self { all, title, help: None, faults: English::each(faults) }
+    }
+}
+
 impl fmt::Display for EnglishGroup<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.title)

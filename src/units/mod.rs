@@ -54,7 +54,7 @@ pub use source::{OwnText, Source};
 pub use stop::Stop;
 pub use time::{Timestamp, TimestampError};
 pub use told::check::amiss_in;
-pub use told::{Argument, Fault, Kind, Listed, Messages, Piece, Value, here};
+pub use told::{Argument, Fault, Kind, Listed, Messages, Piece, Value, by_lines, here};
 
 /// A fault of which the words stand in message files, see the trait.
 pub use orthoframe_units_fault::Fault;

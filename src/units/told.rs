@@ -17,7 +17,7 @@ use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource, FluentValue};
 use miette::{LabeledSpan, Severity, SourceSpan};
 
-use super::{Bilingual, Carried, Cm, InEnglish, Language, Lengths, Pose, carried};
+use super::{Bilingual, Carried, Cm, InEnglish, Language, Lengths, Pose, Source, carried};
 
 pub(super) mod check;
 
@@ -382,6 +382,22 @@ pub trait Fault: Listed {
         };
         Some(Box::new(self.spans().into_iter().enumerate().filter_map(label)))
     }
+}
+
+/// A title, and below it a line per fault: `файл:строка:столбец: что не так`.
+#[must_use]
+pub fn by_lines<F: Fault>(
+    title: String,
+    source: &Source,
+    faults: &[F],
+    language: Language,
+) -> String {
+    let line = |fault: &F| {
+        let at = fault.first_span().map_or(0, |span| span.offset());
+        let (line, column) = source.position(at);
+        format!("\n{}:{line}:{column}: {}", source.name(), fault.tell(language))
+    };
+    faults.iter().map(line).fold(title, |told, line| told + &line)
 }
 
 /// A fault that `messages!` names, so that a test sees all its messages.

@@ -1,5 +1,7 @@
 //! Faces and floors as rooms, and what their kinds can be told from.
 
+use std::collections::HashMap;
+
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
@@ -192,10 +194,10 @@ impl Named<'_> {
         }
         let called: Vec<Option<String>> =
             (0..rooms.len()).map(|i| common_name(&of_doors[i], &spots[i], is_smaller[i])).collect();
-        for (i, room) in rooms.iter_mut().enumerate() {
-            let own = called[i]
-                .as_ref()
-                .filter(|own| called.iter().flatten().filter(|n| n == own).count() == 1);
+        let mut bearers: HashMap<&str, usize> = HashMap::new();
+        called.iter().flatten().for_each(|name| *bearers.entry(name).or_default() += 1);
+        for (room, name) in rooms.iter_mut().zip(&called) {
+            let own = name.as_ref().filter(|name| bearers[name.as_str()] == 1);
             room.called = own.cloned().unwrap_or_default();
         }
     }

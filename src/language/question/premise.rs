@@ -3,7 +3,6 @@
 //! Invariant: a place that was told takes the robot's where a question counts from here, and nothing else.
 
 use super::grammar::{Item, Sentence};
-use super::lexicon::{Extension, KindId};
 use super::mark::Mark;
 use super::query::Extreme;
 use super::{
@@ -11,7 +10,6 @@ use super::{
     opening, several,
 };
 use crate::command::has_verb;
-use crate::map::Entity;
 use crate::sets::{Set, set};
 use crate::units::InOrder as _;
 use crate::words::{Case, Language, is_first_person, word_keys, word_ranges};
@@ -144,7 +142,7 @@ impl Asker<'_> {
     /// One place of all that a person tells of where it is: "at the counter upstairs", "in the kitchen by the sink". A thing
     /// stands in the room, and the room on the storey, whichever is told first; of two rooms neither is meant.
     fn one_place(&self, mut places: Vec<(Rel, Noun)>) -> Option<Noun> {
-        let rank = |noun: &Noun| match (self.is_storey(noun), self.is_room(noun)) {
+        let rank = |noun: &Noun| match (self.mind.lexicon.is_storey(noun), self.is_room(noun)) {
             (true, _) => 2,
             (_, true) => 1,
             _ => 0,
@@ -157,12 +155,6 @@ impl Asker<'_> {
             place.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
         }
         Some(place)
-    }
-
-    fn is_storey(&self, noun: &Noun) -> bool {
-        let named = |e: &Entity| matches!(e, Entity::Map(_));
-        let storeys = |k: &KindId| self.mind.lexicon.kind(*k).extension == Extension::Storeys;
-        noun.head.named.iter().any(named) || noun.head.kinds.iter().any(storeys)
     }
 
     /// Whether a part of a line tells where the person is, in words that come to no place: "I'm next to the blorb". What counts

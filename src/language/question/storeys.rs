@@ -7,7 +7,6 @@
 use std::borrow::Cow;
 
 use super::knowledge::Knowledge;
-use super::lexicon::{Extension, KindId};
 use super::query::{Claim, Query, Rel, Restriction};
 use crate::map::{Entity, World};
 use crate::names::english_name;
@@ -141,11 +140,10 @@ impl Knowledge<'_> {
 
     fn rooms_on_storey(&self, mut places: Vec<&mut Restriction>) {
         let is_storey = |place: &Restriction| match &place.anchors[..] {
-            [anchor] if anchor.rank.is_some() => {
-                let is_kind = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Storeys;
-                !anchor.head.kinds.is_empty() && anchor.head.kinds.iter().all(is_kind)
+            [anchor] => {
+                let is_one = anchor.rank.is_some() || anchor.head.named.len() == 1;
+                is_one && self.lexicon().is_storey(anchor)
             }
-            [anchor] => matches!(anchor.head.named[..], [Entity::Map(_)]),
             _ => false,
         };
         let told: Vec<Restriction> = places

@@ -9,8 +9,7 @@ use miette::{
 };
 
 use crate::units::{
-    Bilingual, Cm, English, EnglishGroup, Fault as _, InEnglish, Language, Piece, Source, here,
-    told, word,
+    Bilingual, Cm, EnglishGroup, Fault as _, InEnglish, Language, Piece, Source, here, told, word,
 };
 
 mod spot;
@@ -397,12 +396,7 @@ impl MapErrors {
     /// The faults as English tells them.
     #[must_use]
     pub fn in_english(&self) -> EnglishGroup<'_> {
-        EnglishGroup {
-            all: self,
-            title: self.told(Language::English),
-            help: None,
-            faults: English::each(&self.faults),
-        }
+        EnglishGroup::new(self, self.told(Language::English), &self.faults)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use miette::{Diagnostic, SourceSpan};
-use orthoframe_units::{English, EnglishGroup, Fault as _, Language, Source, told};
+use orthoframe_units::{EnglishGroup, Fault as _, Language, Source, by_lines, told};
 use thiserror::Error;
 
 use crate::scan::SensorError;
@@ -82,23 +82,16 @@ impl fmt::Display for LogError {
 
 impl LogError {
     fn told(&self, language: Language) -> String {
-        let mut told = told!(language, "vectors-log", count = self.faults.len() + self.more);
-        for fault in &self.faults {
-            let (line, column) = self.source_text.position(fault.offset());
-            let (name, fault) = (self.source_text.name(), fault.tell(language));
-            told.push_str(&format!("\n{name}:{line}:{column}: {fault}"));
-        }
-        told
+        let title = told!(language, "vectors-log", count = self.faults.len() + self.more);
+        by_lines(title, &self.source_text, &self.faults, language)
     }
 
     /// The faults as English tells them.
     #[must_use]
     pub fn in_english(&self) -> EnglishGroup<'_> {
         EnglishGroup {
-            all: self,
-            title: self.told(Language::English),
             help: Some(told!(Language::English, "vectors-log-help")),
-            faults: English::each(&self.faults),
+            ..EnglishGroup::new(self, self.told(Language::English), &self.faults)
         }
     }
 }

@@ -604,8 +604,7 @@ impl<'s, 't> Frame<'s, 't> {
     }
 
     pub(super) fn is_storey(&self, noun: &Noun) -> bool {
-        let named = |e: &crate::map::Entity| matches!(e, crate::map::Entity::Map(_));
-        noun.head.named.iter().any(named) || self.is_storeys(noun)
+        self.lexicon.is_storey(noun)
     }
 
     pub(super) fn is_building(&self, noun: &Noun) -> bool {
