@@ -57,6 +57,28 @@ fn rooms_are_called_as_all_their_doors_are() {
     }
 }
 
+/// A room that is called as a point in it is asked of like any other.
+#[test]
+fn who_is_in_a_room_is_told_by_its_name() {
+    let Some(clinic) = engine(&format!("../shared/data/{CLINIC}")) else { return };
+    let world = clinic.world().unwrap();
+    let called = world.areas.values().filter(|area| area.name_en.starts_with(['L', 'l']));
+    for area in called.filter(|area| area.name_en.ends_with(" room")) {
+        let (_, short) = area.name_en.split_once(' ').expect("a storey, and the room");
+        for line in [
+            format!("Who is in {}?", area.name_en),
+            format!("Who is in the {short}?"),
+            format!("What is in the {short}?"),
+        ] {
+            let answer = clinic.ask(&line, &mut Memory::default()).expect("a map");
+            let answer = answer.unwrap_or_else(|refused| panic!("{line}: {}", refused.text));
+            let of_room = world.replicas.values().filter(|replica| replica.area == area.id);
+            let named = of_room.filter(|replica| answer.text.contains(&replica.name_en)).count();
+            assert!(named > 0, "{line} {}", answer.text);
+        }
+    }
+}
+
 /// "The door L1_wc_2" is L1_wc_2, in whatever question.
 #[test]
 fn a_name_behind_its_kind_is_the_name() {

@@ -74,8 +74,14 @@ pub(super) fn without_rooms<'t>(text: &'t str, world: &World, lexicon: &Lexicon)
     let follows =
         || (at + 2..=words.len().min(at + 1 + MOST)).any(|to| is_point(&words[at + 1..to]));
     let leads = || (at.saturating_sub(MOST)..at).any(|from| is_point(&words[from..at]));
+    // "The left air pressure room", where the room is called so, and not only the point in it.
+    let is_called = |from: usize| {
+        let called = meant(&words[from..=at]);
+        called.iter().any(|hit| matches!(hit.id, Meaning::Entity(Entity::Area(_))))
+    };
+    let is_whole = || (at.saturating_sub(MOST + 1)..at).any(is_called);
     let gone = match Language::of(text) {
-        Language::English if at > 0 && leads() => words[at - 1].end..words[at].end,
+        Language::English if at > 0 && leads() && !is_whole() => words[at - 1].end..words[at].end,
         _ if at + 1 < words.len() && follows() => words[at].start..words[at + 1].start,
         _ => return Cow::Borrowed(text),
     };
