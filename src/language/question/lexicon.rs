@@ -14,7 +14,6 @@ use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, engl
 
 use super::memo::Memo;
 use super::purposes;
-use super::query::Noun;
 use super::values::Values;
 
 /// A kind by its place in the lexicon.
@@ -506,13 +505,6 @@ impl Lexicon {
             self.kind(id).extension,
             Extension::AreaType(_) | Extension::Rooms | Extension::Storeys | Extension::Building
         )
-    }
-
-    /// Whether a storey is named, or storeys at large.
-    pub(super) fn is_storey(&self, noun: &Noun) -> bool {
-        let named = |entity: &Entity| matches!(entity, Entity::Map(_));
-        let storeys = |id: &KindId| self.kind(*id).extension == Extension::Storeys;
-        noun.head.named.iter().any(named) || noun.head.kinds.iter().any(storeys)
     }
 
     /// The kind by whose words things are counted: «предмет мебели» for «мебель».

@@ -6,7 +6,7 @@ use crate::map::Entity;
 use crate::units::{AreaId, OpeningId, ReplicaId};
 
 use super::compared::{Extreme, Quantity, Sized};
-use super::lexicon::KindId;
+use super::lexicon::{Extension, KindId, Lexicon};
 use super::values::{Property, ValueId};
 
 /// How things lie to each other, as prepositions have it.
@@ -228,6 +228,13 @@ impl Noun {
     /// What is told by itself, not described.
     pub(super) fn of(things: Vec<Thing>) -> Self {
         Self { head: Head { things: Some(things), ..Head::default() }, ..Self::default() }
+    }
+
+    /// Whether a storey is named, or storeys at large.
+    pub(super) fn is_storey(&self, lexicon: &Lexicon) -> bool {
+        let named = |entity: &Entity| matches!(entity, Entity::Map(_));
+        let storeys = |id: &KindId| lexicon.kind(*id).extension == Extension::Storeys;
+        self.head.named.iter().any(named) || self.head.kinds.iter().any(storeys)
     }
 
     /// The same of its kind, where a word is a name and a kind's as well: «Спальня» is called so, and not the only one.

@@ -142,7 +142,7 @@ impl Asker<'_> {
     /// One place of all that a person tells of where it is: "at the counter upstairs", "in the kitchen by the sink". A thing
     /// stands in the room, and the room on the storey, whichever is told first; of two rooms neither is meant.
     fn one_place(&self, mut places: Vec<(Rel, Noun)>) -> Option<Noun> {
-        let rank = |noun: &Noun| match (self.mind.lexicon.is_storey(noun), self.is_room(noun)) {
+        let rank = |noun: &Noun| match (noun.is_storey(&self.mind.lexicon), self.is_room(noun)) {
             (true, _) => 2,
             (_, true) => 1,
             _ => 0,

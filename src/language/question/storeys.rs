@@ -142,7 +142,7 @@ impl Knowledge<'_> {
         let is_storey = |place: &Restriction| match &place.anchors[..] {
             [anchor] => {
                 let is_one = anchor.rank.is_some() || anchor.head.named.len() == 1;
-                is_one && self.lexicon().is_storey(anchor)
+                is_one && anchor.is_storey(self.lexicon())
             }
             _ => false,
         };

@@ -604,7 +604,7 @@ impl<'s, 't> Frame<'s, 't> {
     }
 
     pub(super) fn is_storey(&self, noun: &Noun) -> bool {
-        self.lexicon.is_storey(noun)
+        noun.is_storey(self.lexicon)
     }
 
     pub(super) fn is_building(&self, noun: &Noun) -> bool {
