@@ -404,8 +404,13 @@ impl Maker<'_> {
         let says_only_type = name.is_empty() || by_name.is_some_and(|f| f.is_whole);
         let given = match (&meaning, says_only_type) {
             (meaning, true) if !room.called.is_empty() => {
-                let russian = meaning.as_ref().map_or("Помещение", |m| &m.name);
-                self.names.numbered_with(russian, &room.called)
+                // In Russian as without that name: numbers stay what they are.
+                let russian = match meaning {
+                    Some(m) => self.names.unique(&m.name, ""),
+                    None => self.names.numbered("Помещение", ""),
+                };
+                let english = self.names.unique("", &room.called);
+                names::Named { name: russian.name, name_en: english.name_en }
             }
             (Some(m), true) => {
                 let own = by_name.filter(|f| f.is_whole).map_or(m, |f| f.meaning);
