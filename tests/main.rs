@@ -62,6 +62,7 @@ mod maps;
 mod meanings;
 mod mission_plans;
 mod names_with_verbs;
+mod near_questions;
 mod not_known;
 mod odd_floors;
 mod odd_worlds;

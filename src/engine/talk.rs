@@ -59,6 +59,32 @@ impl State {
         Ok(answered.map(|answer| answer.of(memory)))
     }
 
+    /// Questions in words of a text that was not understood, which have an answer: see [`meaning::Grammar::near`]. `broken`:
+    /// within what asks words may be left out as well.
+    ///
+    /// # Errors
+    /// As [`State::ask`].
+    pub(super) fn questions_near(&self, text: &str, broken: bool) -> Result<Vec<String>, Error> {
+        const MOST: usize = 2;
+        let now = self.around()?;
+        let (world, relations, lexicon) = (now.world(), now.relations()?, &now.mind().lexicon);
+        let map = meaning::Map { world, relations, lexicon, words: now.words() };
+        let mut found: Vec<(String, Query)> = Vec::new();
+        for question in now.rules.grammar().near(&map, text, broken) {
+            let answer = self.ask(&question, &mut Memory::default())?;
+            let answer = answer.ok().filter(|answer| answer.said != Said::Unknown);
+            let Some(Answer { query, .. }) = answer else { continue };
+            // Another way to ask the same is no other question.
+            if found.iter().all(|(_, other)| *other != query) {
+                found.push((question, query));
+            }
+            if found.len() == MOST {
+                break;
+            }
+        }
+        Ok(found.into_iter().map(|(question, _)| question).collect())
+    }
+
     /// Brings what a dialogue remembers to the map as it now is.
     fn catch_up(&self, memory: &mut Memory) -> Result<(), Error> {
         let (now, world) = (self.changes.stamp(), self.world()?);

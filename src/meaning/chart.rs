@@ -88,6 +88,11 @@ impl<'t> Chart<'t> {
         here.filter(move |edge| edge.category == category)
     }
 
+    /// The edges that a word is part of.
+    pub(crate) fn over(&self, at: usize) -> impl Iterator<Item = &Edge> {
+        self.edges[..=at].iter().flatten().filter(move |edge| edge.to > at)
+    }
+
     /// Whether any edge is of a category.
     pub(crate) fn has(&self, category: Category) -> bool {
         self.edges.iter().flatten().any(|edge| edge.category == category)

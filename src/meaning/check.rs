@@ -270,7 +270,8 @@ impl<'g> Building<'g> {
             }
             Statement::Reserved(names) => {
                 for name in names {
-                    self.category_of(name)?;
+                    let (category, _) = self.category_of(name)?;
+                    self.tongue.reserved.push(category);
                 }
             }
             Statement::Skip { loose, words } => {
@@ -416,6 +417,10 @@ impl<'g> Building<'g> {
             let (own, says) = (format!("{parts:?}"), format!("{meaning:?}"));
             if self.patterns.insert(own, says.clone()).is_some_and(|other| other != says) {
                 return Err(LangError::Twice { at: at() });
+            }
+            for (slot, _) in &parts {
+                let Slot::Words(runs) = slot else { continue };
+                self.tongue.literals.extend(runs.iter().flatten().cloned());
             }
             let (line, _) = source.position(name.at.start);
             let place = format!("{}:{line}", source.name());

@@ -1,9 +1,11 @@
 //! Frames over a sentence: the cheapest ways to cover all its words by the parts of one frame.
 //!
 //! A cover has no gaps: each word stands in a part of the frame, or is one that the language lists as passed over. In a
-//! language of free order a frame is a bag of parts, and an unusual order has its price.
+//! language of free order a frame is a bag of parts, and an unusual order has its price. Where it is only offered what may
+//! have been meant, other words are left out as well ([`Left`]), each at its price.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::rc::Rc;
 
 use super::chart::Chart;
@@ -28,12 +30,27 @@ pub(crate) struct Found {
     pub(crate) form: Form,
     pub(crate) cost: u32,
     pub(crate) place: String,
+    /// The words that stand in parts of the frame, first to last.
+    pub(crate) used: Vec<usize>,
 }
 
-/// What has been filled so far, the last part first.
+/// What it costs to leave out words of a sentence; none for what may not be.
+pub(crate) struct Left {
+    /// All words before one.
+    pub(crate) before: Vec<Option<u32>>,
+    /// A word within what asks.
+    pub(crate) within: Vec<Option<u32>>,
+    /// All words from one on.
+    pub(crate) behind: Vec<Option<u32>>,
+    /// What a cover costs at most.
+    pub(crate) dearest: u32,
+}
+
+/// What has been filled so far, the last part first: the part, its words, and what they mean where they are no words of
+/// the frame's own.
 enum Filled<'c> {
     Nothing,
-    Part(usize, &'c Edge, Rc<Self>),
+    Part(usize, Range<usize>, Option<&'c Edge>, Rc<Self>),
 }
 
 struct Cover<'c> {
@@ -52,10 +69,23 @@ impl Clone for Cover<'_> {
 
 /// The readings of a sentence, the cheapest first, each form once.
 pub(crate) fn readings(chart: &Chart<'_>, tongue: &Tongue, roles: &Signatures) -> Vec<Found> {
+    let end = chart.tokens.len();
+    let only = |place: usize| (0..=end).map(|at| (at == place).then_some(0)).collect();
+    let (before, within, behind) = (only(0), vec![None; end], only(end));
+    readings_without(chart, tongue, roles, &Left { before, within, behind, dearest: DEAREST })
+}
+
+/// The readings of what is left of a sentence where words are left out, the cheapest first, each form once.
+pub(crate) fn readings_without(
+    chart: &Chart<'_>,
+    tongue: &Tongue,
+    roles: &Signatures,
+    left: &Left,
+) -> Vec<Found> {
     let mut found: Vec<Found> = Vec::new();
     for frame in &tongue.frames {
         if frame.parts.len() <= MOST_PARTS && may_begin(chart, frame) {
-            covers(chart, tongue, frame, roles, &mut found);
+            covers(chart, tongue, frame, roles, left, &mut found);
         }
     }
     found.order_by_key(|one| one.cost);
@@ -84,6 +114,7 @@ fn covers<'c>(
     tongue: &Tongue,
     frame: &Frame,
     roles: &Signatures,
+    left: &Left,
     found: &mut Vec<Found>,
 ) {
     let end = chart.tokens.len();
@@ -91,14 +122,30 @@ fn covers<'c>(
         .filter(|(_, (_, repeat))| matches!(repeat, Repeat::Once | Repeat::Some))
         .fold(0, |mask, (n, _)| mask | 1 << n);
     let mut states: Vec<BTreeMap<u32, Vec<Cover<'c>>>> = vec![BTreeMap::new(); end + 1];
-    let start =
-        Cover { cost: frame.cost, last: 0, is_unordered: false, filled: Rc::new(Filled::Nothing) };
-    states[0].insert(0, vec![start]);
-    for at in 0..end {
+    for at in 0..=end {
+        if let Some(before) = left.before[at] {
+            let (cost, filled) = (frame.cost + before, Rc::new(Filled::Nothing));
+            let start = Cover { cost, last: 0, is_unordered: false, filled };
+            put(&mut states[at], 0, start, left.dearest);
+        }
         for (mask, covers) in std::mem::take(&mut states[at]) {
             for cover in covers {
-                for (to, cost) in skipped(chart, tongue, at) {
-                    put(&mut states[to], mask, Cover { cost: cover.cost + cost, ..cover.clone() });
+                if let (true, Some(tail)) = (mask & needed == needed, left.behind[at]) {
+                    let cost = cover.cost + tail;
+                    if cost <= left.dearest
+                        && let Some((form, used)) = form_of(frame, &cover, roles)
+                    {
+                        found.push(Found { form, cost, place: frame.place.clone(), used });
+                    }
+                }
+                if at == end {
+                    continue;
+                }
+                let is_begun = matches!(*cover.filled, Filled::Part(..));
+                let dropped = left.within[at].filter(|_| is_begun).map(|cost| (at + 1, cost));
+                for (to, cost) in skipped(chart, tongue, at).into_iter().chain(dropped) {
+                    let cover = Cover { cost: cover.cost + cost, ..cover.clone() };
+                    put(&mut states[to], mask, cover, left.dearest);
                 }
                 for (n, (slot, repeat)) in frame.parts.iter().enumerate() {
                     let is_filled = mask & 1 << n != 0;
@@ -109,17 +156,15 @@ fn covers<'c>(
                     }
                     let mut step = |to: usize, cost: u32, edge: Option<&'c Edge>| {
                         let disorder = u32::from(is_back && !cover.is_unordered);
-                        let filled = match edge {
-                            Some(edge) => Rc::new(Filled::Part(n, edge, Rc::clone(&cover.filled))),
-                            None => Rc::clone(&cover.filled),
-                        };
+                        let filled = Filled::Part(n, at..to, edge, Rc::clone(&cover.filled));
+                        let filled = Rc::new(filled);
                         let next = Cover {
                             cost: cover.cost + cost + disorder,
                             last: n,
                             is_unordered: cover.is_unordered || is_back,
                             filled,
                         };
-                        put(&mut states[to], mask | 1 << n, next);
+                        put(&mut states[to], mask | 1 << n, next, left.dearest);
                     };
                     match slot {
                         Slot::Words(runs) => {
@@ -133,16 +178,6 @@ fn covers<'c>(
                         }
                     }
                 }
-            }
-        }
-    }
-    for (mask, covers) in std::mem::take(&mut states[end]) {
-        if mask & needed != needed {
-            continue;
-        }
-        for cover in covers {
-            if let Some(form) = form_of(frame, &cover, roles) {
-                found.push(Found { form, cost: cover.cost, place: frame.place.clone() });
             }
         }
     }
@@ -160,8 +195,8 @@ fn skipped(chart: &Chart<'_>, tongue: &Tongue, at: usize) -> Vec<(usize, u32)> {
     mark.into_iter().chain(runs.filter_map(fits)).collect()
 }
 
-fn put<'c>(state: &mut BTreeMap<u32, Vec<Cover<'c>>>, mask: u32, cover: Cover<'c>) {
-    if cover.cost > DEAREST {
+fn put<'c>(state: &mut BTreeMap<u32, Vec<Cover<'c>>>, mask: u32, cover: Cover<'c>, dearest: u32) {
+    if cover.cost > dearest {
         return;
     }
     let kept = state.entry(mask).or_default();
@@ -172,12 +207,17 @@ fn put<'c>(state: &mut BTreeMap<u32, Vec<Cover<'c>>>, mask: u32, cover: Cover<'c
     }
 }
 
-fn form_of(frame: &Frame, cover: &Cover<'_>, roles: &Signatures) -> Option<Form> {
+/// What a cover means, and the words that it is of.
+fn form_of(frame: &Frame, cover: &Cover<'_>, roles: &Signatures) -> Option<(Form, Vec<usize>)> {
     let mut bound: Vec<Option<Bound>> = vec![None; frame.variables];
+    let mut used = Vec::new();
     let mut next = &*cover.filled;
-    while let Filled::Part(n, edge, before) = next {
+    while let Filled::Part(n, words, edge, before) = next {
         next = before;
-        let Slot::Part { variable: Some(variable), features, .. } = &frame.parts[*n].0 else {
+        used.extend(words.clone().rev());
+        let (Slot::Part { variable: Some(variable), features, .. }, Some(edge)) =
+            (&frame.parts[*n].0, edge)
+        else {
             continue;
         };
         let own = Bound { sense: edge.sense.clone(), features: edge.features & *features };
@@ -195,5 +235,6 @@ fn form_of(frame: &Frame, cover: &Cover<'_>, roles: &Signatures) -> Option<Form>
             _ => return None,
         });
     }
-    frame.meaning.value(&bound, roles)?.form()
+    used.reverse();
+    Some((frame.meaning.value(&bound, roles)?.form()?, used))
 }

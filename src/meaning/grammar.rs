@@ -1,6 +1,6 @@
 //! Grammar files checked and made ready to read with.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
 use super::features::Features;
@@ -74,6 +74,10 @@ pub(crate) struct Tongue {
     /// Words of categories, by all of them with blanks between.
     pub(crate) words: HashMap<String, Vec<Entry>>,
     pub(crate) longest: usize,
+    /// Categories whose words no frame may have as its own, and no question leave out.
+    pub(crate) reserved: Vec<Category>,
+    /// Words that stand in frames as themselves.
+    pub(crate) literals: HashSet<String>,
     pub(crate) rules: Vec<Phrase>,
     pub(crate) frames: Vec<Frame>,
     /// How answers are told.

@@ -30,6 +30,7 @@ mod fault;
 mod features;
 mod file;
 mod grammar;
+mod near;
 mod outcome;
 mod paraphrase;
 mod query;

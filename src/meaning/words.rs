@@ -42,6 +42,8 @@ pub(crate) struct Edge {
 const LONGEST_NAME: usize = 7;
 /// Words of the longest activity, with what it is done to.
 const LONGEST_ACTIVITY: usize = 8;
+/// Marks at which a sentence ends.
+const ENDS: [char; 5] = ['.', ';', '?', '!', '\n'];
 /// Of more names alike the gender of each does not matter.
 const FEW_NAMES: usize = 8;
 
@@ -83,15 +85,18 @@ impl MapWords {
 
 /// The tokens of one sentence; none where a mark within it says that it is several.
 pub(crate) fn tokens(text: &str) -> Option<Vec<Token>> {
+    let ends = |words: &[Range<usize>]| text[words[0].end..words[1].start].contains(ENDS);
+    (!word_ranges(text).windows(2).any(ends)).then(|| tokens_across(text))
+}
+
+/// The tokens of a text, with a mark between its sentences as between its clauses.
+pub(crate) fn tokens_across(text: &str) -> Vec<Token> {
     let mut found: Vec<Token> = Vec::new();
     let mut end = 0;
     for at in word_ranges(text) {
         let gap = &text[end..at.start];
         let key = name_key(&text[at.clone()]);
         if !found.is_empty() {
-            if gap.contains(['.', ';', '?', '!', '\n']) {
-                return None;
-            }
             if gap == "'" || gap == "’" {
                 let last = found.last_mut().expect("it is not empty");
                 // "What's", "isn't": the one is two words, the other one.
@@ -108,12 +113,14 @@ pub(crate) fn tokens(text: &str) -> Option<Vec<Token>> {
             if let Some(mark) = gap.find([',', ':']) {
                 let place = end + mark..end + mark + 1;
                 found.push(Token { key: text[place.clone()].to_owned(), at: place });
+            } else if let Some(mark) = gap.find(ENDS) {
+                found.push(Token { key: ",".to_owned(), at: end + mark..end + mark + 1 });
             }
         }
         found.push(Token { key, at: at.clone() });
         end = at.end;
     }
-    Some(found)
+    found
 }
 
 /// What a kind of the lexicon is of; nothing for what no role takes.

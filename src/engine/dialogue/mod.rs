@@ -29,6 +29,7 @@ mod substitute;
 mod waiting;
 
 pub use heard::{Event, Heard, Outcome, Reply};
+use offered::{Offered, chosen};
 pub(crate) use waiting::queue_in_words;
 
 use crate::language::Language;
@@ -56,8 +57,8 @@ pub(super) type Tell<'t> = dyn FnMut(&Engine, &Event<'_>) + 't;
 #[derive(Debug)]
 pub struct Dialogue {
     memory: Memory,
-    /// A line with its verb put right, until the person says that it was meant.
-    offered: Option<String>,
+    /// What may have been meant, until the person says so.
+    offered: Option<Offered>,
     /// The order that asked back last.
     open: Option<String>,
     /// The order before this line that lacked nothing but whither something goes.
@@ -222,8 +223,10 @@ impl Dialogue {
     /// # Errors
     /// As [`Dialogue::hear`].
     pub fn ask(&mut self, engine: &Engine, question: &str) -> Result<Reply, Error> {
-        let answered = engine.ask(question, &mut self.memory)?;
-        Ok(answered.map_or_else(Reply::unanswered, Reply::answer))
+        Ok(match engine.ask(question, &mut self.memory)? {
+            Ok(answer) => Reply::answer(answer),
+            Err(unanswered) => self.offer_questions(engine, question, unanswered)?,
+        })
     }
 
     /// Hears what is meant as an order, and is told of in the dialogue's language: a question in it is answered, but
@@ -293,7 +296,8 @@ impl Hearing<'_, '_> {
             }
         }
         let offered = self.dialogue.offered.take();
-        let awaited = offered.is_some() || self.dialogue.memory.awaits_reply();
+        let order_waits = matches!(offered, Some(Offered::Order(_)));
+        let awaited = order_waits || self.dialogue.memory.awaits_reply();
         let refusal = self.dialogue.refusal.take();
         let language = self.spoken(line);
         match (said, refusal, offered) {
@@ -304,8 +308,13 @@ impl Hearing<'_, '_> {
                 };
                 return self.put(Outcome::Reason, &text, language);
             }
-            (Some(Aside::Yes), _, Some(meant)) => return self.obey(&meant, true),
-            (Some(Aside::No), _, _) if awaited => return self.stop(true, language),
+            (Some(Aside::Yes), _, Some(Offered::Order(meant))) => return self.obey(&meant, true),
+            (_, _, Some(Offered::Questions(all))) if let Some(meant) = chosen(line, said, &all) => {
+                return self.ask(&meant);
+            }
+            (Some(Aside::No), _, offered) if awaited || offered.is_some() => {
+                return self.stop(true, language);
+            }
             _ => {}
         }
         if let Some(said) = waiting(line)
@@ -487,7 +496,8 @@ impl Hearing<'_, '_> {
         // «Эти вещи белые?», where nothing was spoken of, has no word that is not known.
         let read = matches!(unanswered.doubt, Doubt::NoReferent { .. });
         let Some((at, verb)) = likely_verb(line).filter(|_| !asked && !asks && !read) else {
-            return self.reply(Reply::unanswered(unanswered));
+            let reply = self.dialogue.offer_questions(self.engine, line, unanswered)?;
+            return self.reply(reply);
         };
         let (said, language) = (&line[at.clone()], Language::of(line));
         let text = match language {
@@ -498,7 +508,7 @@ impl Hearing<'_, '_> {
         };
         let mut order = line.to_owned();
         order.replace_range(at, verb);
-        self.dialogue.offered = Some(order.clone());
+        self.dialogue.offered = Some(Offered::Order(order.clone()));
         self.put(Outcome::Offered { order }, &text, language)
     }
 

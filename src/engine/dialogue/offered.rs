@@ -1,10 +1,50 @@
-//! Orders that are told and wait for a yes, since it is not sure that they are meant.
+//! Orders that are told and wait for a yes, since it is not sure that they are meant; questions that may have been.
 
 use crate::language::Language;
 use crate::language::command::is_order;
-use crate::language::question::{Conditional, Unanswered};
+use crate::language::question::{Aside, Conditional, Doubt, Unanswered, rank_alone};
 
-use super::{Error, Hearing, Outcome, Reply};
+use super::{Dialogue, Engine, Error, Hearing, Outcome, Reply};
+
+/// What may have been meant, and waits for a yes.
+#[derive(Debug, Clone)]
+pub(super) enum Offered {
+    Order(String),
+    /// The likeliest first.
+    Questions(Vec<String>),
+}
+
+/// The question that a line chooses of those that were offered: yes to the only one, or its number.
+pub(super) fn chosen(line: &str, said: Option<Aside>, offered: &[String]) -> Option<String> {
+    match (offered, said) {
+        ([only], Some(Aside::Yes)) => Some(only.clone()),
+        _ => offered.get(rank_alone(line)?.checked_sub(1)?).cloned(),
+    }
+}
+
+impl Dialogue {
+    /// What is said where a question is not understood: why, and the questions near to it that have an answer, which then
+    /// wait for a yes.
+    pub(super) fn offer_questions(
+        &mut self,
+        engine: &Engine,
+        line: &str,
+        unanswered: Unanswered,
+    ) -> Result<Reply, Error> {
+        let offers = match &unanswered.doubt {
+            Doubt::NotUnderstood { .. } | Doubt::Unheeded { .. } => {
+                engine.questions_near(line, true)?
+            }
+            // Of what the map lacks nothing else is asked, but in an aside.
+            Doubt::Unknown { .. } | Doubt::NoReferent { .. } | Doubt::Windows => {
+                engine.questions_near(line, false)?
+            }
+            _ => Vec::new(),
+        };
+        self.offered = (!offers.is_empty()).then(|| Offered::Questions(offers.clone()));
+        Ok(Reply::unanswered(unanswered.offering(offers)))
+    }
+}
 
 impl Hearing<'_, '_> {
     /// "If there is a banana, bring it, otherwise bring an apple": that the map has none is no proof that there is none, so
@@ -53,7 +93,7 @@ impl Hearing<'_, '_> {
             Language::Russian => format!("{told} Выполнить: «{order}»?"),
             Language::English => format!("{told} Shall I do this: \"{order}\"?"),
         };
-        self.dialogue.offered = Some(order.clone());
+        self.dialogue.offered = Some(Offered::Order(order.clone()));
         self.put(Outcome::Offered { order }, &text, language)
     }
 }

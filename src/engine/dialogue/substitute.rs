@@ -39,7 +39,7 @@ impl Hearing<'_, '_> {
                     format!("{none}; {name} would serve. Shall I do this: \"{order}\"?")
                 }
             };
-            self.dialogue.offered = Some(order.clone());
+            self.dialogue.offered = Some(super::Offered::Order(order.clone()));
             self.put(Outcome::Offered { order }, &text, language)?;
             return Ok(true);
         }

@@ -89,6 +89,7 @@ pub fn doubt(unanswered: &Unanswered) -> Value {
     json!({
         "outcome": unanswered.doubt.kind(),
         "candidates": unanswered.names,
+        "offers": unanswered.offers,
         "text": unanswered.text,
     })
 }

@@ -143,4 +143,6 @@ pub struct Unanswered {
     pub text: String,
     /// Names of the candidates, or of what is like the name that is not on the map.
     pub names: Vec<String>,
+    /// Questions that come near to what was not understood, and have an answer.
+    pub offers: Vec<String>,
 }

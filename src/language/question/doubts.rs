@@ -15,6 +15,33 @@ use crate::words::russian::{self, Preposition};
 use crate::words::{Case, Language, alternatives, enumerate, everyday};
 
 impl Unanswered {
+    /// With the questions that may have been meant.
+    #[must_use]
+    pub fn offering(self, offers: Vec<String>) -> Self {
+        let quoted: Vec<String> = match self.language {
+            Language::Russian => offers.iter().map(|asked| format!("«{asked}»")).collect(),
+            Language::English => offers.iter().map(|asked| format!("“{asked}”")).collect(),
+        };
+        if quoted.is_empty() {
+            return self;
+        }
+        let asked = alternatives(&quoted, self.language);
+        // What names nothing of an aside is a word, and may be there for all that.
+        let text = match &self.doubt {
+            Doubt::Unknown { reference, .. } => {
+                let lead = self.language.pick("Я не понимаю", "I do not understand");
+                format!(
+                    "{lead} {}.",
+                    self.language
+                        .pick(format!("«{}»", tidy(reference)), format!("“{}”", tidy(reference)))
+                )
+            }
+            _ => self.text.clone(),
+        };
+        let offer = self.language.pick("Может быть, вы спрашиваете:", "Do you ask:");
+        Self { text: format!("{text} {offer} {asked}"), offers, ..self }
+    }
+
     /// Of a condition that is neither so nor not so by its answer: the map does not tell it, or a denial in it is not understood.
     #[must_use]
     pub fn undecided(question: &str, answer: Answer) -> Self {
@@ -26,7 +53,13 @@ impl Unanswered {
                 format!("I do not understand \"{question}\"."),
             ),
         };
-        Self { doubt: Doubt::not_understood(question), language, text, names: Vec::new() }
+        Self {
+            doubt: Doubt::not_understood(question),
+            language,
+            text,
+            names: Vec::new(),
+            offers: Vec::new(),
+        }
     }
 
     /// Of an order that hinges on an answer where nothing was asked that is so or not: "If so, close it".
@@ -37,7 +70,13 @@ impl Unanswered {
             format!("Я не понимаю, о каком условии речь: «{order}»."),
             format!("I do not understand on what this hinges: \"{order}\"."),
         );
-        Self { doubt: Doubt::not_understood(order), language, text, names: Vec::new() }
+        Self {
+            doubt: Doubt::not_understood(order),
+            language,
+            text,
+            names: Vec::new(),
+            offers: Vec::new(),
+        }
     }
 
     /// Of a line that takes back its order, and says something else instead that is not understood.
@@ -48,7 +87,13 @@ impl Unanswered {
             format!("Я не понимаю, что взамен: «{said}». Ничего не сделано."),
             format!("I do not understand what is meant instead: \"{said}\". Nothing was done."),
         );
-        Self { doubt: Doubt::not_understood(said), language, text, names: Vec::new() }
+        Self {
+            doubt: Doubt::not_understood(said),
+            language,
+            text,
+            names: Vec::new(),
+            offers: Vec::new(),
+        }
     }
 
     /// What was asked for is called so by nothing on the map, which denies nothing: it may be there under another name. Of a
@@ -74,7 +119,13 @@ impl Unanswered {
 impl Knowledge<'_> {
     pub(super) fn unanswered(&self, doubt: Doubt) -> Unanswered {
         let (text, names) = self.doubt_words(&doubt);
-        Unanswered { doubt, language: self.language, text: speech::sentence(&text), names }
+        Unanswered {
+            doubt,
+            language: self.language,
+            text: speech::sentence(&text),
+            names,
+            offers: Vec::new(),
+        }
     }
 
     fn doubt_words(&self, doubt: &Doubt) -> (String, Vec<String>) {

@@ -92,7 +92,7 @@ pub use orders::{Conditional, Hinged, conditional, hinged};
 pub use query::{
     Best, Claim, Courtesy, Filter, Head, Noun, Passing, Query, Reach, Rel, Restriction, Thing, Use,
 };
-pub use resolution::{Corrected, Resolved, Strict};
+pub use resolution::{Corrected, Resolved, Strict, rank_alone};
 pub use senses::{Crossing, News, Past, RoomPath, Senses, Sighting, Way};
 pub use serving::{Doing, Part};
 pub use several::sentences;

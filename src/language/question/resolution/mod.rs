@@ -21,6 +21,7 @@ mod words;
 use std::ops::Range;
 
 pub use open::Corrected;
+pub use reply::rank_alone;
 
 use object::More;
 use place::{Spot, case_of};

@@ -361,6 +361,12 @@ impl Asker<'_> {
     }
 }
 
+/// The number in an order that a line says, and nothing else: «вторую», "the second one".
+#[must_use]
+pub fn rank_alone(text: &str) -> Option<usize> {
+    lone_rank(&word_keys(text)).and_then(|rank| usize::try_from(rank).ok())
+}
+
 /// «вторую», "the second one": a number in an order, and nothing else.
 fn lone_rank(keys: &[String]) -> Option<u64> {
     let from = usize::from(keys.first().is_some_and(|key| key == "the"));
