@@ -269,3 +269,35 @@ fn a_room_behind_a_place_is_told_by_what_it_has() {
         assert_eq!(format!("{:?}", heard(&engine, &[described]).expect(described)), named);
     }
 }
+
+/// "Put the mug next to the sink": on the counter that the sink is let into, and not on the floor before it.
+#[test]
+fn beside_what_is_let_into_a_counter_is_on_the_counter() {
+    let mut told = 0;
+    for map in &HOUSES[1..2] {
+        let Some(mut engine) = engine(map) else { return };
+        let world = engine.world().unwrap().clone();
+        let fixed = |name: &str| match world.find(name)[..] {
+            [Entity::Replica(id)] => !world.has_trait(id, "portable"),
+            _ => false,
+        };
+        let thing = kinds(&world, "portable").into_values().flatten().next().unwrap().0;
+        for row in engine.query("?- INSIDE(X, Y)", false).unwrap().rows {
+            let [anchor, holder] = [0, 1].map(|n| row[n].to_string());
+            let holds =
+                |id: &Entity| matches!(id, Entity::Replica(id) if world.has_trait(*id, "support"));
+            if !fixed(&anchor) || !world.find(&holder).iter().any(holds) || told > 1 {
+                continue;
+            }
+            let order = format!("Положи {} рядом с {anchor}", world.name(thing));
+            let Ok(commands) = heard(&engine, &[&order]) else { continue };
+            let mut dialogue = orthoframe::engine::Dialogue::default().keeping_nothing();
+            let heard = dialogue.hear(&mut engine, &order, &mut |_, _| {}).unwrap();
+            for goal in heard.tasks().flat_map(|task| &task.goal) {
+                assert_eq!(goal.args.last(), Some(&holder), "{order}: {commands:?}");
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 0, "nothing was put beside a thing that is let into another");
+}

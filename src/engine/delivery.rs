@@ -157,7 +157,8 @@ impl State {
         is_made_to || !["portable", "device", "light"].iter().any(has)
     }
 
-    /// A thing that is to be beside another: on what that one stands on, else on the floor before it.
+    /// A thing that is to be beside another: on what that one stands on or is let into, as a sink is into a counter, else on the
+    /// floor before it.
     fn laid_beside(
         &self,
         thing: String,
@@ -172,7 +173,14 @@ impl State {
                 facts.iter().find(|f| f.predicate == predicate && f.arguments[at].name == name);
             found.map(|f| f.arguments[give].name.clone())
         };
-        let (predicate, where_to) = match about(predicate::THING_ON, 0, 1) {
+        let serves = |id: &ReplicaId| *id != anchor && world.has_trait(*id, "support");
+        let holder = || {
+            let around = world.replicas.keys().filter(|id| relations.is_inside(anchor, **id));
+            relations.support_of(anchor).into_iter().chain(around.copied()).find(serves)
+        };
+        let support = about(predicate::THING_ON, 0, 1)
+            .or_else(|| holder().map(|id| world.name(Entity::Replica(id)).to_owned()));
+        let (predicate, where_to) = match support {
             Some(support) => (predicate::THING_ON, support),
             None => {
                 let place = about(predicate::THING_AT_PLACE, 0, 1)
