@@ -65,15 +65,19 @@ fn who_is_in_a_room_is_told_by_its_name() {
     let called = world.areas.values().filter(|area| area.name_en.starts_with(['L', 'l']));
     for area in called.filter(|area| area.name_en.ends_with(" room")) {
         let (_, short) = area.name_en.split_once(' ').expect("a storey, and the room");
+        let inside = world.replicas.values().filter(|replica| replica.area == area.id);
+        let peopled = inside.clone().any(|replica| world.has_trait(replica.id, "person"));
         for line in [
             format!("Who is in {}?", area.name_en),
             format!("Who is in the {short}?"),
             format!("What is in the {short}?"),
         ] {
+            if line.starts_with("Who") && !peopled {
+                continue;
+            }
             let answer = clinic.ask(&line, &mut Memory::default()).expect("a map");
             let answer = answer.unwrap_or_else(|refused| panic!("{line}: {}", refused.text));
-            let of_room = world.replicas.values().filter(|replica| replica.area == area.id);
-            let named = of_room.filter(|replica| answer.text.contains(&replica.name_en)).count();
+            let named = inside.clone().filter(|r| answer.text.contains(&r.name_en)).count();
             assert!(named > 0, "{line} {}", answer.text);
         }
     }

@@ -71,6 +71,7 @@ mod one_tongue;
 mod openings;
 mod orders;
 mod own_places;
+mod own_sorts;
 mod paraphrases;
 mod partition;
 mod parts_of_orders;

@@ -320,22 +320,7 @@ impl State {
 
     /// The nearest place or thing that is for charging, by its name or its type.
     fn charger(&self) -> Result<Entity, Error> {
-        const STEMS: [&str; 4] = ["заряд", "charg", "dock", "докстанц"];
-        let world = self.world()?;
-        let charges = |name: &str| {
-            let key = crate::units::name_key(name);
-            key.contains("док станц")
-                || key.split(' ').any(|w| STEMS.iter().any(|stem| w.starts_with(stem)))
-        };
-        let places = world.places.values();
-        let places = places.filter(|p| charges(&p.name) || charges(&p.name_en));
-        let of_kind = |object| {
-            let kind = world.objects.get(&object)?.object_type?;
-            let kind = world.types.object.get(Some(kind))?;
-            Some(charges(&kind.name) || charges(&kind.name_en))
-        };
-        let things = world.replicas.values().filter(|r| of_kind(r.object) == Some(true));
-        let all = places.map(|p| Entity::Place(p.id)).chain(things.map(|r| Entity::Replica(r.id)));
+        let all = crate::language::names::chargers(self.world()?);
         let far = |entity: Entity| (self.way_to(entity), entity);
         let nearest = all.map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         Ok(nearest.ok_or(RequestError::NoCharger)?.1)

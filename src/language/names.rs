@@ -3,6 +3,7 @@
 use super::report::Named;
 use super::words::{Animacy, Case, Gender, Language, NounPhrase, Number, WordHints};
 use crate::map::{self, Entity, Forms, TypeEntry, World};
+use crate::sets::set;
 use crate::units::{Gather as _, name_key};
 
 /// The name of an entity, ready to be declined.
@@ -27,6 +28,22 @@ fn is_called(world: &World, entity: Entity) -> bool {
         words.iter().any(|word| !word.is_empty() && own.contains(word))
     };
     world.has_trait(id, "person") && kind().is_none_or(|kind| !is_kind(kind))
+}
+
+/// The places and things that are for charging, by their names or their types.
+pub fn chargers(world: &World) -> impl Iterator<Item = Entity> + '_ {
+    let charges = |name: &str| {
+        let key = format!(" {}", name_key(name).replace('_', " "));
+        set!("ChargerStem").iter().any(|stem| key.contains(&format!(" {stem}")))
+    };
+    let places = world.places.values();
+    let places = places.filter(move |p| charges(&p.name) || charges(&p.name_en));
+    let things = world.replicas.values().filter(move |replica| {
+        let kind = world.objects.get(&replica.object).and_then(|object| object.object_type);
+        let kind = world.types.object.get(kind);
+        kind.is_some_and(|kind| charges(&kind.name) || charges(&kind.name_en))
+    });
+    places.map(|p| Entity::Place(p.id)).chain(things.map(|r| Entity::Replica(r.id)))
 }
 
 /// What the map says of the forms of a name.

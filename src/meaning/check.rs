@@ -19,13 +19,14 @@ use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, Wo
 use crate::units::{Source, nearest_name};
 
 /// The sentences that a language must have, and the parts that they may name.
-const SENTENCES: [&str; 11] = [
+const SENTENCES: [&str; 12] = [
     "things",
     "no_things",
     "yes",
     "no",
     "number",
     "length",
+    "distance",
     "area",
     "place",
     "values",

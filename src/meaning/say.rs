@@ -30,7 +30,11 @@ impl Grammar {
             }
             Found::Truth(yes) => says(if *yes { "yes" } else { "no" })?.to_owned(),
             Found::Number(number) => says("number")?.replace("{number}", &number.to_string()),
-            Found::Length(tenths) => says("length")?.replace("{cm}", &(tenths / 100).to_string()),
+            Found::Length(tenths) => {
+                let of_two = matches!(answer.reading.form, Form::Distance(..));
+                let sentence = says("distance").filter(|_| of_two).or_else(|| says("length"))?;
+                sentence.replace("{cm}", &(tenths / 100).to_string())
+            }
             Found::Area(square) => {
                 // As they are written of floors: «12,5».
                 let (whole, tenth) = (square / 10_000, square % 10_000 / 1000);

@@ -147,7 +147,8 @@ pub(crate) fn sorts_of(extension: &Extension) -> Sorts {
         | Extension::OuterDoors
         | Extension::Part(_)
         | Extension::Robot
-        | Extension::Lifts => Sorts::NONE,
+        | Extension::Lifts
+        | Extension::Chargers => Sorts::NONE,
     }
 }
 

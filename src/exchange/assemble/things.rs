@@ -313,7 +313,9 @@ impl Maker<'_> {
         let name = names::tidy(&spot.name);
         let by_name = self.synonyms.find(Vocabulary::Place, &name);
         let by_kind = self.synonyms.find(Vocabulary::Place, &spot.kind);
-        let (ru, en) = by_name.or(by_kind).map_or_else(
+        // What a place is for goes before what it is called: where robots charge in a waiting area is a charger.
+        let charger = by_kind.filter(|_| spot.kind == CHARGER);
+        let (ru, en) = charger.or(by_name).or(by_kind).map_or_else(
             || ("Точка".to_owned(), "Point".to_owned()),
             |f| (f.meaning.name.clone(), capitalized(&f.meaning.name_en)),
         );

@@ -216,10 +216,17 @@ impl Named<'_> {
 /// too, or where the name says that it is a room's, and the room beyond is larger.
 fn common_name(doors: &[&str], spots: &[&str], is_smaller: bool) -> Option<String> {
     let (first, others) = doors.split_first()?;
-    let stem = stem(first);
+    let mut stem = stem(first);
+    let agree = |stem: &[&str], of: fn(&str) -> Vec<&str>| others.iter().all(|o| of(o) == stem);
+    let is_spot = doors.iter().any(|door| spots.contains(door));
     let is_told = match others {
-        [] => spots.contains(first) || is_smaller && stem.iter().any(|word| is_room(word)),
-        others => others.iter().all(|other| self::stem(other) == stem),
+        [] => is_spot || is_smaller && stem.iter().any(|word| is_room(word)),
+        _ if agree(&stem, self::stem) => true,
+        // `left_treatment_1` and `left_treatment_2`, of which one is a vertex within: the doors are numbered.
+        _ => {
+            stem = unnumbered(first);
+            is_spot && agree(&stem, unnumbered)
+        }
     };
     (is_told && !stem.is_empty()).then(|| room_words(&stem))
 }
@@ -229,6 +236,15 @@ fn stem(door: &str) -> Vec<&str> {
     let mut words: Vec<&str> =
         door.split(['_', ' ', '-']).filter(|word| !word.is_empty()).collect();
     if words.last().is_some_and(|last| SIDES.contains(&last.to_lowercase().as_str())) {
+        words.pop();
+    }
+    words
+}
+
+/// The same without the number of the door.
+fn unnumbered(door: &str) -> Vec<&str> {
+    let mut words = stem(door);
+    if words.last().is_some_and(|last| last.bytes().all(|byte| byte.is_ascii_digit())) {
         words.pop();
     }
     words

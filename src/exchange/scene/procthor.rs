@@ -73,7 +73,11 @@ impl Assets {
                     .filter_map(|m| m.as_array()?.get(1)?.as_str())
                     .collect();
                 let asset = Asset {
-                    word: text(asset, "objectType").unwrap_or(word).to_owned(),
+                    // The database calls all that hangs in frames paintings; the asset's name tells photographs.
+                    word: match id.starts_with("Wall_Decor_Photo") {
+                        true => "Photograph".to_owned(),
+                        false => text(asset, "objectType").unwrap_or(word).to_owned(),
+                    },
                     half: size.map(|s| s.abs() / 2.0),
                     opens: can("CanOpen"),
                     switches: can("CanToggleOnOff"),

@@ -146,6 +146,7 @@ const WORDS: &[(Build, &[&str])] = &[
             "lightswitch",
             "mirror",
             "painting",
+            "photograph",
             "poster",
             "powersocket",
             "showerhead",

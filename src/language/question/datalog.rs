@@ -389,6 +389,7 @@ impl Rule<'_, '_> {
                 // Of these the facts know nothing.
                 Extension::Windows
                 | Extension::Lifts
+                | Extension::Chargers
                 | Extension::Exits
                 | Extension::OuterDoors
                 | Extension::Places

@@ -10,6 +10,7 @@ use super::speech;
 use super::values::Property;
 use super::{Answer, Said};
 use crate::map::Entity;
+use crate::sets::set;
 use crate::units::AreaId;
 use crate::words::russian::{self, Preposition};
 use crate::words::{Case, Language, alternatives, enumerate, everyday};
@@ -229,7 +230,16 @@ impl Knowledge<'_> {
                         format!(" Do you mean {}?", alternatives(&offered, self.language))
                     }
                 };
+                // Robots of a site, which the map does not keep, are not denied.
+                let is_robots = set!("Robots").contains(&&*crate::units::name_key(&reference));
                 let text = match russian {
+                    true if is_robots => {
+                        "роботов карта не хранит, только места для них: из роботов я знаю одного себя"
+                            .to_owned()
+                    }
+                    false if is_robots => "the map keeps no robots, only places for them: of robots I know \
+                         myself alone"
+                        .to_owned(),
                     true => format!("на карте нет ничего, что называлось бы «{reference}».{offer}"),
                     false => format!("the map has nothing called \"{reference}\".{offer}"),
                 };

@@ -6,7 +6,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::map::{Entity, Permeability, TypeEntry, World};
-use crate::names::{english_name, hints, hints_of_type};
+use crate::names::{chargers, english_name, hints, hints_of_type};
 use crate::sets::{Set, named, of_kind, set};
 use crate::units::{AreaId, Gather as _, InOrder as _, ObjectId, Point, TypeId, name_key};
 use crate::words::things::things;
@@ -56,6 +56,8 @@ pub enum Extension {
     Sort(u16),
     /// Cabins that go from storey to storey.
     Lifts,
+    /// Places and things that robots charge at.
+    Chargers,
 }
 
 /// A kind with its words.
@@ -83,7 +85,7 @@ pub struct Window {
 }
 
 named!(Extension: Things Furniture Rooms Doors Passages Windows Places Storeys Building Floor Walls Corners Exits OuterDoors
-    Lighting);
+    Lighting Chargers);
 
 /// General nouns of the language files: what each means, and the words for it. A name in small letters is a trait's.
 fn concepts() -> Vec<(Extension, Vec<&'static str>)> {
@@ -207,7 +209,7 @@ impl Lexicon {
                 lexicon.add(Extension::Object(object.id), &phrase, &object.name_en, false);
             }
         }
-        lexicon.add_concepts();
+        lexicon.add_concepts(world);
         lexicon.add_building(world);
         lexicon.add_lifts(world);
         lexicon.add_sorts();
@@ -318,8 +320,12 @@ impl Lexicon {
         }
     }
 
-    fn add_concepts(&mut self) {
+    fn add_concepts(&mut self, world: &World) {
+        let has_chargers = chargers(world).next().is_some();
         for (extension, words) in concepts() {
+            if extension == Extension::Chargers && !has_chargers {
+                continue;
+            }
             let (russian, english): (Vec<&str>, Vec<&str>) =
                 words.into_iter().partition(|word| Language::of(word) == Language::Russian);
             let (Some(own), Some(first)) = (russian.first(), english.first()) else { continue };

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use crate::map::{DoorStatus, World};
+use crate::map::{DoorStatus, Mark, World};
 use crate::sets::Set;
 use crate::units::{InOrder as _, name_key};
 use crate::words::things::things;
@@ -60,6 +60,8 @@ impl Property {
             for (property, name) in property_names() {
                 known.entry(name_key(name)).or_insert(property);
             }
+            // What is both open and on has two states, each under a name of its own.
+            known.extend(Mark::Power.names().map(|name| (name_key(name), Self::State)));
             known
         });
         let key = name_key(name);

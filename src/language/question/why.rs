@@ -556,8 +556,10 @@ impl Knowledge<'_> {
         }
         // «Холодильник-1 закрыт»
         if let ("HAS", Some(x), Some(name)) = (relation, thing(0), args.get(1))
-            && let Some((property, Some(value), _)) =
-                self.values(x).into_iter().find(|(p, _, _)| self.property_name(x, p) == *name)
+            && let Some((property, Some(value), _)) = self
+                .values(x)
+                .into_iter()
+                .find(|(p, _, text)| self.property_name(x, p, text) == *name)
             && let Some(words) = self.value_words(x, &property, value)
         {
             return words;

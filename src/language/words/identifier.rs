@@ -9,6 +9,9 @@ use super::grammar::{Animacy, Case, Number, WordHints};
 use super::phrase::NounPhrase;
 use super::things::things;
 
+/// What may stand before a number, in the list of the words of identifiers.
+const COUNTER: &str = "number";
+
 /// The forms of such a name that are said, English and Russian; none for any other name.
 pub(crate) fn spoken(name: &str) -> Vec<String> {
     let lower = name.to_lowercase();
@@ -30,9 +33,16 @@ pub(crate) fn spoken(name: &str) -> Vec<String> {
         if words.iter().filter(|part| is_word(part)).count() < 2 {
             continue;
         }
-        let numbered = |phrase: &str| format!("{phrase} {}", number.join(" ")).trim().to_owned();
+        // "Ward 3" and "ward number 3", «кабинет 8» and «кабинет номер 8»
+        let numbered = |phrase: &str, counter: Option<&str>| {
+            let counters = ["", counter.unwrap_or_default()];
+            let counters = counters.into_iter().filter(|_| !number.is_empty());
+            let told = counters.map(|word| format!("{phrase} {word} {}", number.join(" ")));
+            told.map(|told| told.replace("  ", " ")).collect::<Vec<_>>()
+        };
         let head_last = words.join(" ");
-        said.extend([numbered(&head_last), head_last]);
+        said.extend(numbered(&head_last, Some(COUNTER)));
+        said.push(head_last);
         // "The charger of tinyRobot 1", «зарядка tinyRobot 1»
         let [owner @ .., head] = words else { continue };
         let numbered_owner = |part: &&str| part.ends_with(|c: char| c.is_ascii_digit());
@@ -42,7 +52,9 @@ pub(crate) fn spoken(name: &str) -> Vec<String> {
             Some(owner) => russian_of(head).map(|head| format!("{head} {owner}")),
             None => in_russian(words),
         };
-        said.extend(russian.iter().flat_map(|phrase| [numbered(phrase), phrase.clone()]));
+        let counter = russian_of(COUNTER);
+        said.extend(russian.iter().flat_map(|phrase| numbered(phrase, counter)));
+        said.extend(russian);
     }
     said
 }
@@ -98,7 +110,12 @@ mod tests {
         check("L1_sub_waiting_area_3", &["waiting area", "waiting area 3", "зона ожидания 3"], &[]);
         check(
             "L1 left consult room 3",
-            &["left consult room 3", "consult room 3", "левый кабинет консультаций 3"],
+            &[
+                "left consult room 3",
+                "consult room number 3",
+                "левый кабинет консультаций 3",
+                "левый кабинет консультаций номер 3",
+            ],
             &["room 3", "l1 left consult room 3"],
         );
         // Where a robot is charged is not where it is.

@@ -21,7 +21,7 @@ impl Knowledge<'_> {
             Claim::Value(filter) => {
                 let holds = self.fits(thing, filter);
                 let entry = self.lexicon().values.entry(filter.value);
-                let own = self.values(thing).into_iter().find(|(p, _, _)| *p == entry.property);
+                let own = self.valued(thing, filter.value);
                 let fact = match (self.statuses(thing).first(), thing) {
                     (Some((status, _)), Thing::Entity(Entity::Door(_)))
                         if entry.property == Property::State =>
@@ -32,7 +32,7 @@ impl Knowledge<'_> {
                         ))
                     }
                     _ => own.map(|(_, _, text)| {
-                        let property = self.property_name(thing, &entry.property);
+                        let property = self.property_name(thing, &entry.property, &text);
                         Fact::holding("HAS", vec![self.symbol(thing), property, text])
                     }),
                 };
@@ -558,19 +558,8 @@ impl Knowledge<'_> {
 
     /// The value that a thing has of the property asked about.
     pub(in crate::question) fn own_value(&self, thing: Thing, asked: ValueId) -> Option<String> {
-        let values = &self.lexicon().values;
-        let asked = self.asked_of(thing, asked);
-        let all = self.values(thing);
-        let same = all.iter().find(|(_, v, _)| v.is_some_and(|v| values.is(v, asked)));
-        let property = &values.entry(asked).property;
-        let same = same.or_else(|| {
-            all.iter().find(|(p, v, _)| match v {
-                Some(v) => values.answer_one_question(*v, asked),
-                None => p == property,
-            })
-        });
-        same.map(|(_, value, text)| match value {
-            Some(value) => self.value(*value, thing),
+        self.valued(thing, asked).map(|(_, value, text)| match value {
+            Some(value) => self.value(value, thing),
             None => text.to_lowercase(),
         })
     }

@@ -368,6 +368,22 @@ impl Knowledge<'_> {
         }
     }
 
+    /// Where there are no doors, how many passages there are, which people may have meant as well.
+    fn passages_instead(&self, noun: &Noun) -> String {
+        let doors = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Doors;
+        let plain = noun.head.kinds.iter().any(doors) && noun.filters.is_empty();
+        let kinds = self.lexicon().kind_of(&Extension::Passages).into_iter().collect();
+        let passages = Noun { head: Head { kinds, ..Head::default() }, ..noun.clone() };
+        let open = plain.then(|| self.find(&passages, false).ok()).flatten().unwrap_or_default();
+        let counted = self.counted(&passages, open.len());
+        match (open.len(), self.is_russian()) {
+            (0, _) => String::new(),
+            (_, true) => format!(", но есть {counted}"),
+            (1, false) => format!(", but there is {counted}"),
+            (_, false) => format!(", but there are {counted}"),
+        }
+    }
+
     /// Where nothing is right beside a thing, what stands nearest to it in its room.
     fn nearest_instead(&self, noun: &Noun) -> String {
         let Some((away, thing)) = self.nearest_beside(noun) else { return String::new() };
@@ -422,8 +438,16 @@ impl Knowledge<'_> {
         let place = self.restrictions(noun);
         let anchors = self.anchor_things(noun);
         let number = found.len();
+        let sorts = self.rooms_and_things(noun, &found);
         let text = if number == 0 {
-            self.nothing_found(noun, &place)
+            self.nothing_found(noun, &place) + &self.passages_instead(noun)
+        } else if let Some(sorts) = sorts.filter(|_| !noun.head.anything) {
+            match (self.is_russian(), place.is_empty()) {
+                (true, true) => format!("на карте {sorts}"),
+                (true, false) => format!("{place} {sorts}"),
+                (false, true) => format!("there are {sorts}"),
+                (false, false) => format!("there are {sorts} {place}"),
+            }
         } else {
             let counted = match noun.head.anything {
                 true => {
@@ -464,6 +488,26 @@ impl Knowledge<'_> {
         Ok(Draft { facts, ..Draft::new(said, text).with(found) }
             .about(&anchors)
             .number(number as f64))
+    }
+
+    /// «2 помещения (Туалет-1 и Туалет-2) и 3 вещи», where one word is of rooms and of things: they are not counted together.
+    fn rooms_and_things(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let (rooms, things): (Vec<Thing>, Vec<Thing>) =
+            found.iter().partition(|thing| thing.area().is_some());
+        let several = noun.head.things.is_none() && !rooms.is_empty() && !things.is_empty();
+        let sorts = [(rooms, Extension::Rooms), (things, Extension::Things)];
+        let told = sorts.into_iter().filter(|_| several).map(|(found, sort)| {
+            let kind = self.lexicon().kind(self.lexicon().kind_of(&sort)?);
+            let number = found.len() as u64;
+            let counted = match self.language {
+                Language::Russian => russian::count(number, &kind.phrase),
+                Language::English => crate::words::english::count(number, &kind.english),
+            };
+            let list = (found.len() <= 12).then(|| format!(" ({})", self.list(&found)));
+            Some(counted + &list.unwrap_or_default())
+        });
+        let told: Vec<String> = told.collect::<Option<_>>()?;
+        several.then(|| enumerate(&told, self.language))
     }
 
     pub(super) fn exists(

@@ -336,10 +336,10 @@ impl Knowledge<'_> {
         for filter in noun.filters.iter().filter(|filter| !filter.negated) {
             let wanted = &self.lexicon().values.entry(filter.value).property;
             for &thing in found.iter().take(50) {
-                let own = self.values(thing).into_iter().find(|(p, _, _)| p == wanted);
-                let name = || self.property_name(thing, wanted);
+                let own = self.valued(thing, filter.value);
                 facts.extend(own.filter(|_| thing.replica().is_some()).map(|(_, _, text)| {
-                    Fact::holding("HAS", vec![self.symbol(thing), name(), text])
+                    let name = self.property_name(thing, wanted, &text);
+                    Fact::holding("HAS", vec![self.symbol(thing), name, text])
                 }));
             }
         }

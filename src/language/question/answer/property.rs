@@ -17,10 +17,16 @@ use crate::words::{Case, Language, enumerate};
 type Surface = (Thing, Option<Kept>);
 
 impl Knowledge<'_> {
-    /// The map's own name of a property.
-    pub(in crate::question) fn property_name(&self, thing: Thing, property: &Property) -> String {
+    /// The map's own name of a property that has such a text.
+    pub(in crate::question) fn property_name(
+        &self,
+        thing: Thing,
+        property: &Property,
+        text: &str,
+    ) -> String {
         let find = |properties: &crate::map::Properties| {
-            properties.keys().find(|name| Property::of(name) == *property).cloned()
+            let mut own = properties.iter().filter(|(name, _)| Property::of(name) == *property);
+            own.find(|(_, value)| *value == text).map(|(name, _)| name.clone())
         };
         let found = match thing {
             Thing::Entity(Entity::Replica(id)) => self.world.replicas.get(&id).and_then(|r| {
@@ -85,7 +91,7 @@ impl Knowledge<'_> {
                         )
                     }
                     _ => {
-                        let name = self.property_name(thing, property);
+                        let name = self.property_name(thing, property, text);
                         Fact::holding("HAS", vec![self.symbol(thing), name, text.clone()])
                     }
                 });

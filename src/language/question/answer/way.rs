@@ -235,6 +235,7 @@ impl Knowledge<'_> {
         let from_there = |way: &f64| straight.is_none_or(|straight| *way + 1.0 >= straight);
         let way = way.filter(|way| rooms || !goes(start) || !goes(to) || from_there(way));
         let straight = straight.filter(|_| !rooms || way.is_none());
+        let edges = self.from_what(start, to);
         let (a, b) = (self.form(start, Case::Genitive), self.form(to, Case::Genitive));
         let until = russian::preposition(russian::Preposition::Do, &b);
         let of = russian::preposition(russian::Preposition::Ot, &a);
@@ -242,14 +243,16 @@ impl Knowledge<'_> {
         let name = |t: Thing| self.name(t);
         let text = match (way, straight, self.is_russian()) {
             (Some(way), Some(d), true) => format!(
-                "{of} {a} {until} {b} {} пути, по прямой {}",
+                "{of} {a} {until} {b} {} пути, по прямой {}{edges}",
                 length(way, lang),
                 length(d, lang)
             ),
             (Some(way), None, true) => format!("{of} {a} {until} {b} {} пути", length(way, lang)),
-            (None, Some(d), true) => format!("{of} {a} {until} {b} {}{barred}", length(d, lang)),
+            (None, Some(d), true) => {
+                format!("{of} {a} {until} {b} {}{edges}{barred}", length(d, lang))
+            }
             (Some(way), Some(d), false) => format!(
-                "from {} to {} it is {} by way, {} in a straight line",
+                "from {} to {} it is {} by way, {} in a straight line{edges}",
                 name(start),
                 name(to),
                 length(way, lang),
@@ -261,9 +264,12 @@ impl Knowledge<'_> {
                 name(to),
                 length(way, lang)
             ),
-            (None, Some(d), false) => {
-                format!("from {} to {} it is {}{barred}", name(start), name(to), length(d, lang))
-            }
+            (None, Some(d), false) => format!(
+                "from {} to {} it is {}{edges}{barred}",
+                name(start),
+                name(to),
+                length(d, lang)
+            ),
             (None, None, true) => {
                 format!("расстояние {of} {a} {until} {b} неизвестно: они на разных картах")
             }

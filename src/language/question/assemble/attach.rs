@@ -4,6 +4,7 @@
 
 use super::Frame;
 use super::Spot;
+use crate::map::Entity;
 use crate::question::lexicon::Extension;
 use crate::question::mark::Mark;
 use crate::question::query::{Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction};
@@ -70,6 +71,34 @@ impl Frame<'_, '_> {
         self.with_best(noun)
     }
 
+    /// "Through which door do I get into consult room 4 on L1?": a storey behind a name that several rooms bear tells which.
+    pub(super) fn rooms_of_storeys(&mut self) {
+        let several = |noun: &Noun| {
+            let named = &noun.head.named;
+            named.len() > 1 && named.iter().all(|e| matches!(e, Entity::Area(_)))
+        };
+        for n in (0..self.spots.len()).rev() {
+            let Spot { at, rel, nouns, negated, .. } = &self.spots[n];
+            let ([storey], false, Some(before)) = (&nouns[..], *negated, at.checked_sub(1)) else {
+                continue;
+            };
+            let is_one = storey.rank.is_some() || storey.head.named.len() == 1;
+            if !is_one || !self.is_storey(storey) || !matches!(rel, Rel::In | Rel::On) {
+                continue;
+            }
+            let spots = self.spots.iter().filter(|s| s.at == before).map(|s| s.nouns.last());
+            let nouns = self.nouns.iter().filter(|s| s.at == before).map(|s| Some(&s.noun));
+            if !spots.chain(nouns).flatten().any(several) {
+                continue;
+            }
+            let told = self.spots.remove(n).restrictions();
+            let spots = self.spots.iter_mut().filter(|s| s.at == before);
+            let nouns = self.nouns.iter_mut().filter(|s| s.at == before).map(|s| &mut s.noun);
+            let rooms = spots.filter_map(|s| s.nouns.last_mut()).chain(nouns);
+            rooms.for_each(|room| room.restrictions.extend(told.clone()));
+        }
+    }
+
     /// "Nearest to the table in the kitchen", «ближе всего к столу на кухне»: a room behind that to which something is near
     /// is of that alone.
     fn tells_of_nearness(&self, spot: &Spot) -> Option<Nearness> {
@@ -128,7 +157,7 @@ impl Frame<'_, '_> {
 
     /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
     pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
-        if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
+        if self.is_building(&spot.nouns[0]) && matches!(spot.rel, Rel::In | Rel::On) {
             return;
         }
         // "A thing from the kitchen" is in it; a door leads from it.

@@ -65,8 +65,11 @@ impl Frame<'_, '_> {
         if !asked.head.kinds.is_empty() {
             asked.head.named.clear();
         }
+        // "Which room has the most pictures on the walls?": on them is what a room has, and not the room.
+        let rooms = self.is_area(&asked);
         for spot in self.spots.iter().filter(|spot| spot.at != at) {
-            self.attach(&mut asked, spot);
+            let had = rooms && spot.at > at && !self.is_area(&spot.nouns[0]);
+            self.attach(if had { &mut what } else { &mut asked }, spot);
         }
         asked.rank = asked.rank.or(what.rank.take());
         asked.best = Some(Best { extreme, anchor: Some(Box::new(what)) });

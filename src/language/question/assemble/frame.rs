@@ -352,6 +352,7 @@ impl<'s, 't> Frame<'s, 't> {
         }
         frame.excepted.clone_from(&frame.except);
         frame.except_rooms();
+        frame.rooms_of_storeys();
         frame.look_aside();
         let walls = frame.on_walls(items.len());
         frame.spots.extend(walls);

@@ -403,10 +403,10 @@ impl Frame<'_, '_> {
         // «С какими комнатами соединена Комната-В?», «С чем граничит Комната-В?», «Куда можно выйти из Комнаты-В?»
         if self.asks() || asks_where || self.has(Mark::As) {
             let mut rooms = self.rooms_near(self.joined_room()?);
-            // "Which floors does the lift go to?"
-            let storeys = |s: &&Subject| self.is_storeys(&s.noun) && self.follows_which(s.at);
-            if let Some(storeys) = self.nouns.iter().find(storeys) {
-                rooms.head.kinds.clone_from(&storeys.noun.head.kinds);
+            // "Which floors does the lift go to?", "Which corridor leads to the lab?"
+            if let Some(asked) = asked {
+                rooms.head.kinds.clone_from(&asked.noun.head.kinds);
+                rooms.text.clone_from(&asked.noun.text);
             }
             // «Из каких комнат можно попасть в коридор?», "Which rooms lead to the corridor?"
             let whither = self.spots.iter().any(|s| {

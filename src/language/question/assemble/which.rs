@@ -4,11 +4,12 @@
 
 use super::Frame;
 use super::Subject;
-use crate::question::lexicon::Extension;
+use crate::question::lexicon::{Extension, KindId};
 use crate::question::mark::Mark;
 use crate::question::query::{
-    Best, Extreme, Filter, Head, Noun, Quantity, Query, Rel, Restriction, Thing,
+    Best, Denial, Extreme, Filter, Head, Noun, Quantity, Query, Rel, Restriction, Thing,
 };
+use crate::question::values::Property;
 use crate::sets::set;
 use crate::words::Language;
 
@@ -222,6 +223,17 @@ impl Frame<'_, '_> {
             return None;
         }
         let question = self.place_of(Mark::Which).or_else(|| self.place_of(Mark::What))?;
+        // "What kind of door is Door 1?": of Door 1, which is one.
+        let of_kind = self.sentence.keys.iter().any(|key| set!("KindWord").contains(&&**key));
+        if let ([kind, named], true, true) = (&self.nouns[..], of_kind, self.spots.is_empty())
+            && self.follows_which(kind.at)
+            && kind.noun.head.named.is_empty()
+            && !named.noun.head.named.is_empty()
+        {
+            let mut of = self.with_rest(named.noun.clone(), &[]);
+            of.also.push(kind.noun.head.clone());
+            return Some(Query::Property { property: Property::Kind, of });
+        }
         if let Some(nearest) = self.nearest_to(question) {
             return Some(nearest);
         }
@@ -308,6 +320,15 @@ impl Frame<'_, '_> {
                 let ands = self.marks.iter().filter(|(m, _)| *m == Mark::And).count();
                 let both = others.len() > 1 && (ands > 1 || self.has(Mark::All));
                 let having = self.has(Mark::Have) || self.has(Mark::Exists) || both;
+                // "Which rooms are toilets?": those that are, and not where the things are that are called so.
+                let sort = |kind: &KindId| self.lexicon.is_area(*kind);
+                let are = others[0].noun.plural && others[0].noun.head.kinds.iter().any(sort);
+                if let ([only], true, false) = (&others[..], are, having) {
+                    let mut rooms = only.noun.clone();
+                    rooms.head.named.clear();
+                    rooms.head.kinds.retain(sort);
+                    return Some(Query::Find(self.with_rest(rooms, &[])));
+                }
                 if !having
                     && !self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
                     && !self.has(Mark::And)
@@ -321,6 +342,23 @@ impl Frame<'_, '_> {
             let best = asked.noun.best.is_some()
                 || self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::BestTo(_)));
             let mut noun = asked.noun.clone();
+            // «Какие картины или фотографии висят на кухне?»: of each sort those that are there.
+            let sorts =
+                |noun: &Noun| noun.plural && noun.head.named.is_empty() && !self.is_area(noun);
+            if let [other] = others[..]
+                && other.at == asked.at + 2
+                && self.marks.contains(&(Mark::Or, asked.at + 1))
+                && [&noun, &other.noun].into_iter().all(sorts)
+                && !self.spots.is_empty()
+            {
+                let each = [&noun, &other.noun]
+                    .map(|noun| self.with_rest(Noun { indefinite: true, ..noun.clone() }, &[]));
+                return Some(Query::Exists {
+                    what: each.to_vec(),
+                    either: true,
+                    denial: Denial::Unasked,
+                });
+            }
             // "Which cup is the red one?"
             for other in others.iter().filter(|s| s.noun.head.anything) {
                 noun.filters.extend(other.noun.filters.iter().cloned());

@@ -16,7 +16,7 @@ use crate::question::values::{Property, ValueId};
 use crate::question::vocabulary;
 use crate::sets::{Set, set};
 use crate::units::name_key;
-use crate::words::{Language, word_ranges};
+use crate::words::{Hit, Language, word_ranges};
 
 impl<'t> Sentence<'t> {
     pub(in super::super) fn new(text: &'t str, lexicon: &Lexicon) -> Self {
@@ -564,7 +564,7 @@ impl<'t> Sentence<'t> {
         has(&|mark| mark == Mark::Where) && has(&most)
     }
 
-    /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2".
+    /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2", "floor L1".
     fn is_numbered(&self, at: usize, taken: usize, lexicon: &Lexicon) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.kind != Tok::Mark(Mark::Filler));
         let told = matches!(
@@ -583,7 +583,12 @@ impl<'t> Sentence<'t> {
                     )
             )
         );
-        let next = self.keys.get(at + taken).and_then(|key| number_of(key)).is_some();
+        let next = self.keys.get(at + taken).and_then(|key| number_of(key)).is_some()
+            || self.keys.get(at + taken).is_some_and(|key| {
+                let storey =
+                    |hit: &Hit<'_, Meaning>| matches!(hit.id, Meaning::Entity(Entity::Map(_)));
+                lexicon.nouns.find(key).iter().any(storey)
+            });
         // "Floors" are storeys, but "the wooden floors" are trodden.
         told || next || self.keys[at] == "floors" && !self.tells_finish(lexicon)
     }

@@ -110,6 +110,26 @@ impl Knowledge<'_> {
         }
     }
 
+    /// Between what of two things [`Self::distance`] is measured.
+    pub(in crate::question) fn from_what(&self, a: Thing, b: Thing) -> &'static str {
+        let has_edge = |t: Thing| t.replica().is_some();
+        let is_opening = |t: Thing| matches!(t, Thing::Window(_)) || self.opening(t).is_some();
+        let of_middle = |t: Thing| t.area().is_some() || is_opening(t);
+        match (has_edge(a), has_edge(b)) {
+            (true, true) => self.pick(" между ближайшими краями", " between the nearest edges"),
+            (true, false) | (false, true) if is_opening(a) || is_opening(b) => {
+                self.pick(" между ближайшими краями", " between the nearest edges")
+            }
+            (true, false) | (false, true) => {
+                self.pick(" до ближайшего края", " to the nearest edge")
+            }
+            (false, false) if of_middle(a) || of_middle(b) => {
+                self.pick(" между серединами", " between the middles")
+            }
+            (false, false) => "",
+        }
+    }
+
     /// How far it is from one thing to each of several: by the ways that are driven, where all of them are rooms and places
     /// to go to and there is a way to each; else straight. None where one has no distance.
     pub(in crate::question) fn how_far(&self, from: Thing, to: &[Thing]) -> Option<HowFar> {

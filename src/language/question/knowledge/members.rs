@@ -6,6 +6,7 @@ use std::borrow::Cow;
 
 use super::Knowledge;
 use crate::map::Entity;
+use crate::names::chargers;
 use crate::question::lexicon::{Extension, KindId, Lexicon};
 use crate::question::query::{Noun, Rel, Thing};
 use crate::units::{InOrder as _, ObjectId, ReplicaId};
@@ -30,6 +31,14 @@ impl Knowledge<'_> {
         Cow::Owned(noun)
     }
 
+    /// The switches of lights.
+    pub(in crate::question) fn switches(&self) -> Vec<Thing> {
+        let types = &self.world.types.object;
+        let kinds = self.by_type().iter();
+        let kinds = kinds.filter(|(kind, _)| types.get(**kind).is_some_and(Lexicon::is_switch));
+        kinds.flat_map(|(_, all)| all).map(|id| Thing::Entity(Entity::Replica(*id))).collect()
+    }
+
     /// Everything of a kind.
     pub(in crate::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
         let replica = |&id: &ReplicaId| Thing::Entity(Entity::Replica(id));
@@ -51,18 +60,9 @@ impl Knowledge<'_> {
             Extension::Object(object) => of_object(*object),
             Extension::Trait(wanted) => with_trait(wanted),
             Extension::Lighting => {
-                let mut found = with_trait("light");
+                let found = with_trait("light");
                 // A switch stands for its light only where the map gives the lights themselves no place.
-                if !found.is_empty() {
-                    return found;
-                }
-                let types = &self.world.types.object;
-                let switches = self
-                    .by_type()
-                    .iter()
-                    .filter(|(kind, _)| types.get(**kind).is_some_and(Lexicon::is_switch));
-                found.extend(switches.flat_map(|(_, all)| all).map(replica));
-                found
+                if found.is_empty() { self.switches() } else { found }
             }
             Extension::Things => self.world.replicas.keys().map(replica).collect(),
             Extension::Furniture => self.furniture().iter().map(replica).collect(),
@@ -92,6 +92,7 @@ impl Knowledge<'_> {
             Extension::Storeys | Extension::Building => {
                 self.world.maps.keys().map(|m| Thing::Entity(Entity::Map(*m))).collect()
             }
+            Extension::Chargers => chargers(self.world).map(Thing::Entity).collect(),
             Extension::Robot => vec![Thing::Robot],
             Extension::Lifts => {
                 let stops = self.world.domain.lifts.iter().filter_map(|(_, stops)| stops.first());

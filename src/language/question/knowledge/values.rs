@@ -20,9 +20,13 @@ impl Knowledge<'_> {
         let mut found: Vec<(Property, Option<ValueId>, String)> = Vec::new();
         let mut add = |properties: &crate::map::Properties| {
             for (name, value) in properties {
-                let property = Property::of(name);
-                if found.iter().all(|(other, _, _)| *other != property) {
-                    found.push((property, values.meaning(value), value.clone()));
+                let (property, meant) = (Property::of(name), values.meaning(value));
+                let apart = |own: Option<ValueId>| {
+                    own.zip(meant)
+                        .is_some_and(|(own, other)| !values.answer_one_question(own, other))
+                };
+                if found.iter().all(|(other, own, _)| *other != property || apart(*own)) {
+                    found.push((property, meant, value.clone()));
                 }
             }
         };
@@ -49,6 +53,26 @@ impl Knowledge<'_> {
             found.insert(0, (Property::State, value, word));
         }
         found
+    }
+
+    /// What a thing has that answers whether it has a value.
+    pub(in crate::question) fn valued(
+        &self,
+        thing: Thing,
+        asked: ValueId,
+    ) -> Option<(Property, Option<ValueId>, String)> {
+        let values = &self.lexicon().values;
+        let asked = self.asked_of(thing, asked);
+        let property = &values.entry(asked).property;
+        let mut all = self.values(thing);
+        let same = all.iter().position(|(_, v, _)| v.is_some_and(|v| values.is(v, asked)));
+        let same = same.or_else(|| {
+            all.iter().position(|(p, v, _)| match v {
+                Some(v) => values.answer_one_question(*v, asked),
+                None => p == property,
+            })
+        });
+        same.map(|at| all.swap_remove(at))
     }
 
     /// States of a door, or of the doors of a thing.

@@ -274,6 +274,15 @@ impl Resolver<'_, '_> {
             self.without_lifts(&mut found);
         }
         if several && !found.is_empty() {
+            // «Погаси свет»: the lamps, and the switches of the rooms where they are.
+            if sort == Sort::Switch && of_light {
+                let area = |t: Thing| self.knowledge.area_of(t);
+                let rooms: Vec<_> = found.iter().filter_map(|lamp| area(*lamp)).collect();
+                let mut switches = self.knowledge.switches();
+                switches.retain(|t| area(*t).is_some_and(|room| rooms.contains(&room)));
+                switches.retain(|t| self.knowledge.can(sort, *t) && !found.contains(t));
+                found.extend(switches);
+            }
             return Ok(Some(found));
         }
         // «Поезжай на кухню и возьми чашку»: the one that is there.
