@@ -126,7 +126,7 @@ fn tell_view(common: &Common, view: &View, scans: usize) -> String {
 
 /// A segment: ends, length, what the ends are.
 fn tell(lang: Lang, lengths: Lengths, k: usize, segment: &Segment<2>, is_picture: bool) -> String {
-    let unit = if is_picture { lang.pick("тчк", "px") } else { lengths.word(lang.language()) };
+    let unit = if is_picture { lang.pick("тчк", "px") } else { &lengths.word(lang.language()) };
     let length = decimal(lengths.of(segment.length()), unit, lang.language());
     let (a, b) = (segment.start, segment.end);
     let [first, last] = json::ends(segment).map(|end| word(lang, end));

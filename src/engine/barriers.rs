@@ -24,11 +24,10 @@ impl RouteAnswer {
 pub(crate) fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> String {
     let russian = language == Language::Russian;
     match no {
-        NoRoute::Blocked { barriers, .. } if !barriers.is_empty() => {
+        NoRoute::Blocked { barriers } => {
             let told: Vec<String> = barriers.iter().map(|b| barrier(world, b, language)).collect();
             told.join("; ")
         }
-        NoRoute::Blocked { text, .. } => text.clone(),
         NoRoute::NoFloor if russian => {
             "у начала или цели нет места, где робот помещается".to_owned()
         }
@@ -49,8 +48,6 @@ pub(crate) fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -
             };
             format!("{name} {}", language.pick(ru, en))
         }
-        // A reason that came later tells of itself.
-        other => other.to_string(),
     }
 }
 

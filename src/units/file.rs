@@ -11,6 +11,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
+use super::{Language, told};
+
 /// Why a file was not read.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -37,29 +39,18 @@ impl From<io::Error> for FileFault {
 
 impl fmt::Display for FileFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io(error) => write!(f, "{error}"),
-            Self::TooLarge { bytes, limit } => {
-                write!(f, "слишком велик: байт не меньше {bytes}, предел {limit}")
-            }
-            Self::Silent => {
-                write!(f, "ничего не приходит уже {} с", PATIENCE.as_secs())
-            }
-            Self::NotText { at } => write!(f, "не текст в UTF-8: байт {at}"),
-        }
+        f.write_str(&self.tell(Language::Russian))
     }
 }
 
 impl FileFault {
     #[must_use]
-    pub fn english(&self) -> String {
+    pub fn tell(&self, language: Language) -> String {
         match self {
             Self::Io(error) => error.to_string(),
-            Self::TooLarge { bytes, limit } => {
-                format!("too large: at least {bytes} bytes, and the limit is {limit}")
-            }
-            Self::Silent => format!("nothing has come for {} s", PATIENCE.as_secs()),
-            Self::NotText { at } => format!("no text in UTF-8: byte {at}"),
+            Self::TooLarge { bytes, limit } => told!(language, "file-too-large", bytes, limit),
+            Self::Silent => told!(language, "file-silent", seconds = PATIENCE.as_secs()),
+            Self::NotText { at } => told!(language, "file-not-text", at),
         }
     }
 

@@ -1,8 +1,9 @@
 //! [`Lengths`]: in which unit lengths are told in words.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use super::Language;
+use super::{Language, told, word};
 
 /// The unit of the lengths that are told in words, and of those that are said without one. Within, all are centimetres.
 ///
@@ -97,7 +98,7 @@ impl Lengths {
     /// A speed in cm/s, as a sentence tells it.
     #[must_use]
     pub fn told_speed(self, cm_a_second: f64, places: usize, language: Language) -> String {
-        format!("{}/{}", self.told(cm_a_second, places, language), language.pick("с", "s"))
+        told!(language, "a-second", length = self.told(cm_a_second, places, language))
     }
 
     /// A point in cm, to so many places of a centimetre.
@@ -107,11 +108,12 @@ impl Lengths {
     }
 
     #[must_use]
-    pub fn word(self, language: Language) -> &'static str {
-        match self {
-            Self::Cm => language.pick("см", "cm"),
-            Self::M => language.pick("м", "m"),
-        }
+    pub fn word(self, language: Language) -> Cow<'static, str> {
+        let unit = match self {
+            Self::Cm => word!("cm"),
+            Self::M => word!("m"),
+        };
+        unit.say(language)
     }
 }
 

@@ -1,12 +1,13 @@
 //! A named text whose faults are shown with line and character column.
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-use super::Language;
 use super::file::{FileFault, read_text};
+use super::{Language, word};
 
 /// A text that was read, with the name that a person knows it by. Cheap to clone.
 ///
@@ -32,15 +33,15 @@ impl OwnText {
         [Self::Order, Self::Edit, Self::Assumption, Self::Measurements, Self::Relations];
 
     #[must_use]
-    pub fn name(self, language: Language) -> &'static str {
-        let (russian, english) = match self {
-            Self::Order => ("задание", "order"),
-            Self::Edit => ("правка", "edit"),
-            Self::Assumption => ("предположение", "assumption"),
-            Self::Measurements => ("измерения (встроенные)", "measurements (built in)"),
-            Self::Relations => ("rules/relations.dl (встроенный)", "rules/relations.dl (built in)"),
+    pub fn name(self, language: Language) -> Cow<'static, str> {
+        let name = match self {
+            Self::Order => word!("own-order"),
+            Self::Edit => word!("own-edit"),
+            Self::Assumption => word!("own-assumption"),
+            Self::Measurements => word!("own-measurements"),
+            Self::Relations => word!("own-relations"),
         };
-        language.pick(russian, english)
+        name.say(language)
     }
 
     /// The text of this name, in Russian, by which its faults know it.

@@ -66,3 +66,21 @@ import-empty-level = the storey has no room
 import-not-carried = records of the kind “{ $kind }” are not carried over
 import-loose-boxes = the boxes are not exact: { $off } of { $of } things have their bottom more than { LENGTH(2) } off what they stand on; the profile “detected” is taken (another: --profile surveyed)
 import-other = { $text }
+
+# Why there is no SQLite file, or nothing in it.
+
+exchange-sqlite = SQLite, “{ $path }”: { $reason }
+    .help = see that it is an SQLite file, and not damaged
+exchange-sqlite-exists = the file “{ $path }” is there already
+    .help = name a new file, or remove this one
+exchange-sqlite-content = “{ $path }”: { $what }
+    .help = the paper’s tables with their fields are needed; an example: ortho export --sqlite
+exchange-sqlite-limit = “{ $path }”: more than { $limit } { $what }
+    .help = divide the database into several
+no-file = this is no file
+bytes = bytes
+records = records
+no-table = the table { $table } is missing
+no-column = the table { $table } lacks the field { $column }
+unreadable-column = table { $table }: the field { $column } cannot be read
+cut-off = the file is cut off: it has { $bytes } bytes of { $whole }

@@ -66,3 +66,21 @@ import-empty-level = на этаже нет ни одного помещения
 import-not-carried = записи вида «{ $kind }» не переносятся
 import-loose-boxes = коробки неточны: у вещей { $off } из { $of } низ дальше { LENGTH(2) } от того, на чём они стоят; взят профиль «detected» (другой: --profile surveyed)
 import-other = { $text }
+
+# Почему нет файла SQLite, или ничего в нём.
+
+exchange-sqlite = SQLite, «{ $path }»: { $reason }
+    .help = проверьте, что это файл SQLite и что он не повреждён
+exchange-sqlite-exists = файл «{ $path }» уже есть
+    .help = назовите новый файл или удалите этот
+exchange-sqlite-content = «{ $path }»: { $what }
+    .help = нужны таблицы статьи с её полями; образец – ortho export --sqlite
+exchange-sqlite-limit = «{ $path }»: { $what } больше { $limit }
+    .help = разделите базу на несколько
+no-file = это не файл
+bytes = байт
+records = записей
+no-table = нет таблицы { $table }
+no-column = в таблице { $table } нет поля { $column }
+unreadable-column = таблица { $table }: поле { $column } не читается
+cut-off = файл обрезан: в нём { $bytes } байт из { $whole }
