@@ -92,7 +92,7 @@ use orthoframe_vectors as vectors;
 
 units::messages!(
     "../rules/messages",
-    "engine" | "cli",
+    "engine" | "cli" | "serve",
     engine::RequestError,
     #[cfg(feature = "cli")]
     cli::ConfigError

@@ -12,7 +12,7 @@ use miette::{
 
 use crate::engine::{Error, RequestError, json};
 
-use crate::units::{English, Language, OwnText};
+use crate::units::{English, OwnText, told};
 
 use super::args::{Color, Lang};
 use super::config_error::ConfigError;
@@ -73,7 +73,7 @@ impl Failure {
         super::waiting::over();
         match self {
             Self::Output(reason) => {
-                eprintln!("ortho: {}: {reason}", lang.pick("вывод прерван", "output broke off"));
+                eprintln!("ortho: {}: {reason}", told!(lang.language(), "output-broke-off"));
                 ExitCode::from(3)
             }
             Self::Config(error) => match lang {
@@ -163,7 +163,14 @@ impl SourceCode for Excerpts<'_> {
         let (data, at, lines) = (contents.data(), *contents.span(), contents.line_count());
         let name = own.name(self.1.language());
         let (line, column) = (contents.line(), contents.column());
-        Ok(Box::new(MietteSpanContents::new_named(name.into_owned(), data, at, line, column, lines)))
+        Ok(Box::new(MietteSpanContents::new_named(
+            name.into_owned(),
+            data,
+            at,
+            line,
+            column,
+            lines,
+        )))
     }
 }
 

@@ -176,7 +176,11 @@ pub fn object_svg(world: &World, object: &Object, language: Language) -> String 
     canvas.mark("heading");
     canvas.text(left, title, start(Lettering::bold(heading, INK)));
     let note = word!("dimensions-in-centimetres").say(language);
-    canvas.text(left - Vector::new(0.0, 24.0 * pen), &note, start(Lettering::plain(letter, HIDDEN)));
+    canvas.text(
+        left - Vector::new(0.0, 24.0 * pen),
+        &note,
+        start(Lettering::plain(letter, HIDDEN)),
+    );
     for ((view, mut silhouettes), offset) in views.into_iter().zip(shown).zip(offsets) {
         let extent = extents[view as usize];
         draw_view(&mut canvas, view, &mut silhouettes, offset, pen);

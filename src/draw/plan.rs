@@ -8,7 +8,8 @@ use crate::geometry::{
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{
-    AreaId, DoorId, Gather as _, InOrder as _, Language, Piece, PlaceId, Point, Pose, ReplicaId, Vector, told, word,
+    AreaId, DoorId, Gather as _, InOrder as _, Language, Piece, PlaceId, Point, Pose, ReplicaId,
+    Vector, told, word,
 };
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};

@@ -29,9 +29,7 @@ pub(super) fn look(kind: ZoneKind) -> (Style, &'static str, &'static str, Piece)
         ZoneKind::KeepOut => (KEEP_OUT, "#a11d1a", "keep-out", word!("keep-out")),
         ZoneKind::Closed => (CLOSED, "#a8550a", "closed", word!("closed")),
         ZoneKind::Slow { .. } => (SLOW, "#8a7800", "slow", word!("slow")),
-        ZoneKind::OneWay { .. } => {
-            (ONE_WAY, "#1d5b96", "one-way", word!("one-way"))
-        }
+        ZoneKind::OneWay { .. } => (ONE_WAY, "#1d5b96", "one-way", word!("one-way")),
     }
 }
 

@@ -396,7 +396,9 @@ impl FloorPlan {
             if let Some(points) = against {
                 let is_one_way = |kind| matches!(kind, ZoneKind::OneWay { .. });
                 let zones = self.touched(&points, is_one_way).into_iter();
-                return NoRoute::Blocked { barriers: zones.map(|zone| Barrier::Zone { zone }).collect() };
+                return NoRoute::Blocked {
+                    barriers: zones.map(|zone| Barrier::Zone { zone }).collect(),
+                };
             }
             let ends: Vec<CellKey> = goals.iter().map(|g| g.anchor.cell).collect();
             explain(self, world, start.cell, &ends)

@@ -74,12 +74,8 @@ impl Played {
         let mut reader = Reader(bytes.get(MAGIC.len()..).unwrap_or_default());
         played.cut = match played.read_records(&mut reader, &mut topics, false) {
             Ok(true) if bytes.ends_with(MAGIC) => None,
-            Ok(_) | Err(Fault::Torn(Torn::Short)) => {
-                Some(said!("cut-off"))
-            }
-            Err(Fault::Torn(Torn::Broken)) => {
-                Some(said!("damaged"))
-            }
+            Ok(_) | Err(Fault::Torn(Torn::Short)) => Some(said!("cut-off")),
+            Err(Fault::Torn(Torn::Broken)) => Some(said!("damaged")),
             Err(Fault::Compressed(how)) => Some(said!("compressed", how)),
         };
         played

@@ -67,8 +67,8 @@ impl Messages {
                 let told = |square_cm| Lengths::said().told_area(square_cm, 0, language);
                 arguments.first().and_then(number).map(told).unwrap_or_default().into()
             });
-            let unit = bundle
-                .add_function("UNIT", move |_, _| Lengths::said().word(language).into());
+            let unit =
+                bundle.add_function("UNIT", move |_, _| Lengths::said().word(language).into());
             let round = bundle.add_function("ROUND", |arguments, _| {
                 let told = |value| format!("{value:.0}");
                 arguments.first().and_then(number).map(told).unwrap_or_default().into()

@@ -3,6 +3,7 @@
 use crate::language::Language;
 use crate::language::command::is_order;
 use crate::language::question::{Conditional, Unanswered};
+use crate::units::told;
 
 use super::{Error, Hearing, Outcome, Reply};
 
@@ -49,10 +50,7 @@ impl Hearing<'_, '_> {
         told: &str,
         language: Language,
     ) -> Result<(), Error> {
-        let text = match language {
-            Language::Russian => format!("{told} Выполнить: «{order}»?"),
-            Language::English => format!("{told} Shall I do this: \"{order}\"?"),
-        };
+        let text = told!(language, "shall-i-do-this", told, order);
         self.dialogue.offered = Some(order.clone());
         self.put(Outcome::Offered { order }, &text, language)
     }
