@@ -507,14 +507,7 @@ fn a_word_of_the_glossary_means_one_thing() {
 #[test]
 fn what_is_told_stands_in_message_files() {
     /// Something is told in their code still.
-    const TELLING: [&str; 6] = [
-        "facts/strata.rs",
-        "map/check/mod.rs",
-        "map/check/placed.rs",
-        "map/file/edit/edits.rs",
-        "map/file/edit/steps/names.rs",
-        "store/keep.rs",
-    ];
+    const TELLING: [&str; 3] = ["map/check/mod.rs", "map/file/edit/edits.rs", "store/keep.rs"];
     /// Their words are read, or stand in maps and facts: names of properties, kinds, objects and relations.
     const NAMING: [&str; 30] = [
         "engine/directive_words.rs",

@@ -90,7 +90,7 @@ fn every_change_that_is_named_opens_the_way() {
         let mut changed = b.world.clone();
         make(&mut changed, &remedy);
         let way = build(&changed).route(&changed, from, target, Method::Shortest);
-        assert!(way.is_ok(), "seed {seed}: {remedy:?} of {no:?}: {}", way.unwrap_err());
+        assert!(way.is_ok(), "seed {seed}: {remedy:?} of {no:?}: {:?}", way.unwrap_err());
         // Nor does less do: half of the push, or all doors but one.
         if let Remedy::Open(doors) = &remedy {
             for k in 0..doors.len() {

@@ -99,7 +99,7 @@ fn a_closed_room_is_told_with_its_zone_and_opens_in_time() {
     let mut engine = rb2(dir.path(), ZONES);
     let no = engine.route("Точка-А", "Коридор", Method::Shortest).unwrap();
     let told = no.no_way_in_words(engine.world().unwrap(), Language::Russian);
-    assert_eq!(told.as_deref(), Some("зона «Мокрый пол» закрыта"));
+    assert_eq!(told.as_deref(), Some("Мокрый пол закрыт до 2199-01-01 12:00 UTC: моют пол"));
     assert!(engine.route("Точка-А", "Комната-Y", Method::Shortest).unwrap().route.is_ok());
     lay(&mut engine, "[[edit]]\nzone = \"Мокрый пол\"\nuntil = \"2020-01-01\"\n");
     assert!(engine.route("Точка-А", "Коридор", Method::Shortest).unwrap().route.is_ok());

@@ -3,15 +3,12 @@
 //! What a name stands for may be a pipe into which nobody writes, a device without end, or a file that grows while it
 //! is read. Every reader goes through here, so that each of them ends, with bounded memory.
 
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
-
-use super::{Language, told};
 
 /// Why a file was not read.
 #[derive(Debug)]
@@ -37,23 +34,7 @@ impl From<io::Error> for FileFault {
     }
 }
 
-impl fmt::Display for FileFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.tell(Language::Russian))
-    }
-}
-
 impl FileFault {
-    #[must_use]
-    pub fn tell(&self, language: Language) -> String {
-        match self {
-            Self::Io(error) => error.to_string(),
-            Self::TooLarge { bytes, limit } => told!(language, "file-too-large", bytes, limit),
-            Self::Silent => told!(language, "file-silent", seconds = PATIENCE.as_secs()),
-            Self::NotText { at } => told!(language, "file-not-text", at),
-        }
-    }
-
     /// As an error of the file system, for those whose own faults hold one.
     #[must_use]
     pub fn into_io(self) -> io::Error {
@@ -70,7 +51,7 @@ impl FileFault {
 }
 
 /// How long a pipe may give nothing.
-const PATIENCE: Duration = Duration::from_secs(5);
+pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 const PIECE: usize = 1 << 16;
 
 /// The bytes of a file, at most `limit`.

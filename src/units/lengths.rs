@@ -1,9 +1,8 @@
 //! [`Lengths`]: in which unit lengths are told in words.
 
-use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use super::{Language, told, word};
+use super::Language;
 
 /// The unit of the lengths that are told in words, and of those that are said without one. Within, all are centimetres.
 ///
@@ -95,25 +94,10 @@ impl Lengths {
         format!("{} {}²", marked(without_zeros(area), language), self.word(language))
     }
 
-    /// A speed in cm/s, as a sentence tells it.
-    #[must_use]
-    pub fn told_speed(self, cm_a_second: f64, places: usize, language: Language) -> String {
-        told!(language, "a-second", length = self.told(cm_a_second, places, language))
-    }
-
     /// A point in cm, to so many places of a centimetre.
     #[must_use]
     pub fn point(self, x: f64, y: f64, places: usize) -> String {
         format!("({}, {})", self.number(x, places), self.number(y, places))
-    }
-
-    #[must_use]
-    pub fn word(self, language: Language) -> Cow<'static, str> {
-        let unit = match self {
-            Self::Cm => word!("cm"),
-            Self::M => word!("m"),
-        };
-        unit.say(language)
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Bilingual, Language, Lengths, said};
+use super::{Language, Lengths};
 
 /// Why a number from outside is no length or no angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,27 +16,6 @@ pub enum QuantityError {
     /// Beyond [`Cm::LIMIT`], where hundredths of a millimetre would be lost in an `f64` sum.
     TooLarge(f64),
 }
-
-impl From<QuantityError> for Bilingual {
-    fn from(error: QuantityError) -> Self {
-        match error {
-            QuantityError::NotFinite(value) => {
-                said!("number-not-finite", value = value.to_string())
-            }
-            QuantityError::TooLarge(value) => {
-                said!("length-too-large", length = Cm(value), limit = Cm(Cm::LIMIT))
-            }
-        }
-    }
-}
-
-impl fmt::Display for QuantityError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Bilingual::from(*self).fmt(f)
-    }
-}
-
-impl std::error::Error for QuantityError {}
 
 /// A length in centimetres: finite, at most [`Cm::LIMIT`] either way.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default, Serialize, Deserialize)]

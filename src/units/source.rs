@@ -1,13 +1,12 @@
 //! A named text whose faults are shown with line and character column.
 
-use std::borrow::Cow;
 use std::path::Path;
 use std::sync::Arc;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
+use super::Language;
 use super::file::{FileFault, read_text};
-use super::{Language, word};
 
 /// A text that was read, with the name that a person knows it by. Cheap to clone.
 ///
@@ -31,18 +30,6 @@ pub enum OwnText {
 impl OwnText {
     const ALL: [Self; 5] =
         [Self::Order, Self::Edit, Self::Assumption, Self::Measurements, Self::Relations];
-
-    #[must_use]
-    pub fn name(self, language: Language) -> Cow<'static, str> {
-        let name = match self {
-            Self::Order => word!("own-order"),
-            Self::Edit => word!("own-edit"),
-            Self::Assumption => word!("own-assumption"),
-            Self::Measurements => word!("own-measurements"),
-            Self::Relations => word!("own-relations"),
-        };
-        name.say(language)
-    }
 
     /// The text of this name, in Russian, by which its faults know it.
     #[must_use]

@@ -3,8 +3,6 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Language, word};
-
 /// Milliseconds since 1970-01-01T00:00:00 UTC. Printed and read as `2026-11-21T09:30:00.000Z`.
 #[derive(
     Debug,
@@ -65,14 +63,6 @@ impl fmt::Display for Timestamp {
 /// A text that is no moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TimestampError;
-
-impl fmt::Display for TimestampError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&word!("not-a-time").say(Language::Russian))
-    }
-}
-
-impl std::error::Error for TimestampError {}
 
 impl TryFrom<String> for Timestamp {
     type Error = TimestampError;
