@@ -90,4 +90,10 @@ use orthoframe_strips as strips;
 use orthoframe_units as units;
 use orthoframe_vectors as vectors;
 
-units::messages!("../rules/messages", "engine", engine::RequestError);
+units::messages!(
+    "../rules/messages",
+    "engine" | "cli" | "serve",
+    engine::RequestError,
+    #[cfg(feature = "cli")]
+    cli::ConfigError
+);

@@ -506,30 +506,35 @@ fn a_word_of_the_glossary_means_one_thing() {
 /// these, of which none is added.
 #[test]
 fn what_is_told_stands_in_message_files() {
-    const LEFT: [&str; 28] = [
-        "corridor/arms.rs",
-        "corridor/directions.rs",
-        "corridor/file.rs",
-        "exchange/report.rs",
+    /// Something is told in their code still.
+    const TELLING: [&str; 3] = ["map/check/mod.rs", "map/file/edit/edits.rs", "store/keep.rs"];
+    /// Their words are read, or stand in maps and facts: names of properties, kinds, objects and relations.
+    const NAMING: [&str; 30] = [
+        "engine/directive_words.rs",
+        "engine/zones.rs",
+        "exchange/assemble/build.rs",
+        "exchange/assemble/things.rs",
+        "exchange/geojson/doors.rs",
+        "exchange/geojson/feature.rs",
+        "exchange/geojson/levels.rs",
+        "exchange/geojson/mod.rs",
+        "exchange/ifc/building.rs",
+        "exchange/ifc/stairs.rs",
+        "exchange/osmag.rs",
+        "exchange/read.rs",
+        "exchange/rmf/mod.rs",
+        "exchange/ros/mod.rs",
+        "exchange/scene/procthor.rs",
+        "exchange/scene/pyrobosim/mod.rs",
+        "exchange/scene/thor.rs",
+        "exchange/scene/virtualhome.rs",
+        "exchange/synonyms.rs",
         "facts/clause.rs",
-        "facts/strata.rs",
         "facts/subsume.rs",
         "map/check/base.rs",
         "map/check/doubts/words.rs",
-        "map/check/mod.rs",
-        "map/check/placed.rs",
-        "map/file/edit/edits.rs",
-        "map/file/edit/steps/names.rs",
         "map/file/records.rs",
-        "robot/vehicle/link.rs",
         "semantics/relations/rules.rs",
-        "semantics/thresholds.rs",
-        "store/check.rs",
-        "store/keep.rs",
-        "store/run.rs",
-        "store/vault/mod.rs",
-        "store/vault/recover.rs",
-        "strips/check.rs",
         "strips/declare.rs",
         "strips/hint.rs",
         "strips/replay.rs",
@@ -552,6 +557,8 @@ fn what_is_told_stands_in_message_files() {
         }
     }
     found.sort();
-    assert_eq!(found, LEFT);
+    let mut known: Vec<&str> = TELLING.into_iter().chain(NAMING).collect();
+    known.sort_unstable();
+    assert_eq!(found, known);
     assert!(told > 90, "{told} sources");
 }

@@ -90,7 +90,7 @@ fn every_change_that_is_named_opens_the_way() {
         let mut changed = b.world.clone();
         make(&mut changed, &remedy);
         let way = build(&changed).route(&changed, from, target, Method::Shortest);
-        assert!(way.is_ok(), "seed {seed}: {remedy:?} of {no}: {}", way.unwrap_err());
+        assert!(way.is_ok(), "seed {seed}: {remedy:?} of {no:?}: {:?}", way.unwrap_err());
         // Nor does less do: half of the push, or all doors but one.
         if let Remedy::Open(doors) = &remedy {
             for k in 0..doors.len() {
@@ -262,12 +262,14 @@ fn no_push_is_shorter_than_the_one_named() {
         let (from, target) = (p(60., 200.), Target::Point(to));
         let Err(no) = plan.route(&b.world, from, target, Method::Shortest) else { continue };
         let remedy = plan.remedy(&b.world, from, target, &no, FARTHEST);
-        let Some(Remedy::Move { by, .. }) = &remedy else { panic!("seed {seed}: {remedy:?} {no}") };
+        let Some(Remedy::Move { by, .. }) = &remedy else {
+            panic!("seed {seed}: {remedy:?} {no:?}")
+        };
         // The longer the push, the longer all shorter ones take.
         if by.norm() < 9.5 {
             tried += 1;
             let less = least_push(&b, from, to, by.norm() - 0.5);
-            assert_eq!(less, None, "seed {seed}: {remedy:?} of {no}");
+            assert_eq!(less, None, "seed {seed}: {remedy:?} of {no:?}");
         }
     }
     assert!(tried > 5, "{tried}");
@@ -310,7 +312,7 @@ fn the_gap_that_is_told_is_the_widest() {
             *(if build(&b.world).are_joined(from, to) { &mut low } else { &mut high }) = radius;
         }
         told += 1;
-        assert!((width - 2.0 * low).abs() < 0.1, "seed {seed}: {no}, and {} passes", 2.0 * low);
+        assert!((width - 2.0 * low).abs() < 0.1, "seed {seed}: {no:?}, and {} passes", 2.0 * low);
     }
     assert!(told > 24, "{told}");
 }

@@ -85,7 +85,7 @@ fn both_ways(b: &Builder, from: Point, to: Point) -> (Route, Route) {
     let plan = plan(b);
     check_invariants(&plan);
     let go = |method| {
-        plan.route(&b.world, from, Target::Point(to), method).unwrap_or_else(|e| panic!("{e}"))
+        plan.route(&b.world, from, Target::Point(to), method).unwrap_or_else(|e| panic!("{e:?}"))
     };
     let (short, paper) = (go(Method::Shortest), go(Method::Paper));
     check_route(&plan, &b.world, &short);
@@ -171,7 +171,6 @@ fn a_robot_wider_than_its_door_is_told_both_widths() {
         }
         other => panic!("{other:?}"),
     }
-    assert!(no.to_string().contains("90 см, роботу нужно 90.1 см"), "{no}");
     b.world.robot.radius = Cm::of(45.0);
     assert!(
         plan(&b)
@@ -330,7 +329,7 @@ fn a_door_behind_what_fills_its_room_from_wall_to_wall_is_not_reached() {
         assert!(barred.barriers().iter().any(names_it), "{x}: {barred:?}");
         // With a way round it one stands behind it.
         let way = to_door(x, 200.0).0;
-        let way = way.unwrap_or_else(|e| panic!("{x}: {e}"));
+        let way = way.unwrap_or_else(|e| panic!("{x}: {e:?}"));
         assert!(way.points.last().unwrap().x > x + 40.0, "{x}: {way:?}");
     }
     // No robot fits between this one and the door.
@@ -370,7 +369,7 @@ fn one_goes_round_to_another_side_of_a_thing_that_only_a_doorway_has_its_front_b
         for (from, within) in [(50.0, None), (600.0, None), (600.0, Some(&[two][..]))] {
             let from = p(from, 150.0);
             let way = plan.route_within(&b.world, from, to_chest, Method::Shortest, within);
-            let way = way.unwrap_or_else(|e| panic!("{y}: {e}"));
+            let way = way.unwrap_or_else(|e| panic!("{y}: {e:?}"));
             check_route(&plan, &b.world, &way);
             assert!(way.points.last().unwrap().x > 400.0, "{y}: {way:?}");
         }
@@ -428,17 +427,17 @@ fn every_room_of_the_flat_is_reached_from_every_other() {
             for method in [Method::Shortest, Method::Paper] {
                 let route = plan
                     .route(&world, from, Target::Point(to), method)
-                    .unwrap_or_else(|e| panic!("{e}"));
+                    .unwrap_or_else(|e| panic!("{e:?}"));
                 check_route(&plan, &world, &route);
             }
         }
         for &area in world.areas.keys() {
             plan.route(&world, from, Target::Area(area), Method::Shortest)
-                .unwrap_or_else(|e| panic!("{e}"));
+                .unwrap_or_else(|e| panic!("{e:?}"));
         }
         for &id in world.replicas.keys() {
             if let Err(e) = plan.route(&world, from, Target::Replica(id), Method::Shortest) {
-                panic!("{}: {e}", world.replicas[&id].name);
+                panic!("{}: {e:?}", world.replicas[&id].name);
             }
         }
     }

@@ -503,7 +503,7 @@ fn walls_beside_a_doorway_stay_where_the_corridor_goes_round_the_room() {
             let plan = plan(&world, map, radius);
             let from = plan.rest_in(area(room)).expect("the robot fits");
             let way = plan.route(&world, from, Target::Area(area(corridor)), Method::Shortest);
-            let way = way.unwrap_or_else(|no| panic!("{file} at {radius}: {no}"));
+            let way = way.unwrap_or_else(|no| panic!("{file} at {radius}: {no:?}"));
             assert!(plan.clearance(&way.points) > radius - 0.006, "{file} at {radius}");
         }
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Dialogue, Engine, Format, Method, Mode, Timestamp};
 use orthoframe_map::{Edits, World};
-use orthoframe_units::Source;
+use orthoframe_units::{Language, Source};
 
 use crate::files::project;
 
@@ -97,8 +97,9 @@ fn zones_are_answered_in_both_languages() {
 fn a_closed_room_is_told_with_its_zone_and_opens_in_time() {
     let dir = tempfile::tempdir().unwrap();
     let mut engine = rb2(dir.path(), ZONES);
-    let no = engine.route("Точка-А", "Коридор", Method::Shortest).unwrap().route.unwrap_err();
-    assert_eq!(no.to_string(), "пути нет: зона «Мокрый пол»");
+    let no = engine.route("Точка-А", "Коридор", Method::Shortest).unwrap();
+    let told = no.no_way_in_words(engine.world().unwrap(), Language::Russian);
+    assert_eq!(told.as_deref(), Some("Мокрый пол закрыт до 2199-01-01 12:00 UTC: моют пол"));
     assert!(engine.route("Точка-А", "Комната-Y", Method::Shortest).unwrap().route.is_ok());
     lay(&mut engine, "[[edit]]\nzone = \"Мокрый пол\"\nuntil = \"2020-01-01\"\n");
     assert!(engine.route("Точка-А", "Коридор", Method::Shortest).unwrap().route.is_ok());

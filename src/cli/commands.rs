@@ -13,6 +13,7 @@ use crate::language::report::Detail as Level;
 use crate::language::{Case, Language, NounPhrase};
 use crate::robot::{SensingRobot, Vehicle};
 use crate::strips::Scenario;
+use crate::units::told;
 
 use super::args::{Common, Detail, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
@@ -73,7 +74,7 @@ pub(super) fn check(common: &Common, file: &Path, strict: bool) -> Result<Answer
         return say(&json::sound_map(&world, &warnings, common.lang.language()).to_string());
     }
     let uncertain = uncertain_names(&world);
-    let sound = common.lang.pick("Карта исправна.", "The map is sound.");
+    let sound = told!(common.lang.language(), "the-map-is-sound");
     let mut lines = vec![format!("{sound} {}", text::described(&world, common.lang))];
     if !uncertain.is_empty() {
         lines.push(guessed(&uncertain, common.lang));
@@ -90,18 +91,15 @@ fn guessed(uncertain: &[NounPhrase], lang: Lang) -> String {
         .iter()
         .take(UNCERTAIN_SHOWN)
         .map(|phrase| {
-            let of = lang.pick("нет", "genitive");
+            let of = told!(lang.language(), "genitive");
             format!("{} ({of} {})", phrase.name(), phrase.case(Case::Genitive))
         })
         .collect();
     let more = match uncertain.len().saturating_sub(UNCERTAIN_SHOWN) {
         0 => String::new(),
-        more => format!(" {} {more}", lang.pick("и ещё", "and more:")),
+        more => format!(" {} {more}", told!(lang.language(), "and-more")),
     };
-    let head = lang.pick(
-        "Формы имён, угаданные по окончанию (карта может задать их полем forms; все формы: ortho words ИМЯ)",
-        "Russian forms of names guessed by their endings (the map may give them in the field forms; all forms: ortho words NAME)",
-    );
+    let head = told!(lang.language(), "guessed-forms");
     format!("{head}: {}{more}.", shown.join(", "))
 }
 
@@ -124,7 +122,7 @@ pub(super) fn relations(
     }
     let rows = engine.facts(name, of)?;
     if rows.is_empty() {
-        return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
+        return say(&told!(common.lang.language(), "no-such-facts"));
     }
     let language = common.lang.language();
     let told = |(relation, values): &(String, Vec<Value>)| {
@@ -207,14 +205,7 @@ fn truth(common: &Common, engine: &Engine, file: &Path) -> Result<World, Failure
     let Truth { world, left_behind } = engine.read_truth(file)?;
     if !left_behind.is_empty() {
         let names = left_behind.join(", ");
-        note(&match common.lang {
-            Lang::Ru => format!(
-                "--truth: остаётся на прежнем месте, хотя опора уходит: {names}; carry = true перенесёт и это."
-            ),
-            Lang::En => format!(
-                "--truth: stays behind, though what bears it goes: {names}; carry = true takes it along."
-            ),
-        });
+        note(&told!(common.lang.language(), "truth-left-behind", names));
     }
     Ok(world)
 }
@@ -287,7 +278,7 @@ pub(super) fn route(
         }
         let opens = journey.opens_in_words(world, language);
         parts.extend(Some(opens).filter(|told| !told.is_empty()));
-        let head = common.lang.pick("Чтобы открыть путь:", "To open a way:");
+        let head = told!(common.lang.language(), "to-open-a-way");
         let advice = journey.advice.as_ref().map(|a| a.in_words(world, language));
         parts.extend(advice.map(|a| format!("{head} {a}.")));
         say(&parts.join("\n"))?;

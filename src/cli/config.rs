@@ -158,8 +158,7 @@ impl Arguments {
 impl Config {
     fn read(path: &Path) -> Result<Self, ConfigError> {
         let text = crate::units::read_text(path, LARGEST).map_err(|error| {
-            let reason = error.into_io().to_string();
-            ConfigError::Unreadable { path: path.display().to_string(), reason }
+            ConfigError::Unreadable { path: path.display().to_string(), reason: (&error).into() }
         })?;
         toml::from_str(&text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);

@@ -9,7 +9,7 @@ use crate::draw::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
 };
 use crate::engine::{Engine, Error, json, read_map};
-use crate::units::Source;
+use crate::units::{Piece, Source, told, word};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -57,7 +57,7 @@ pub(super) fn run(common: &Common, args: &CorridorArgs) -> Result<Answer, Failur
         return say(&json::directions(&way).to_string());
     }
     if way.steps.is_empty() {
-        return say(common.lang.pick("Вы уже у цели.", "You are there already."));
+        return say(&told!(common.lang.language(), "there-already"));
     }
     let mut lines = Vec::new();
     for (i, step) in way.steps.iter().enumerate() {
@@ -98,60 +98,49 @@ pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failu
         floor if floor == system.name => String::new(),
         floor => format!(", {floor}"),
     };
-    let title = match common.lang {
-        Lang::Ru => format!("{name}{floor}: вариант {}", way.variant.number()),
-        Lang::En => format!("{name}{floor}: variant {}", way.variant.number()),
-    };
+    let title =
+        told!(common.lang.language(), "variant", name, floor, number = way.variant.number());
     let notes = if common.lang == Lang::Ru { way.ru } else { way.en };
-    let told = |list: &[(u8, [&str; 2])]| {
-        let line = |(code, [ru, en]): &(u8, [&str; 2])| {
-            (code.to_string(), common.lang.pick(ru, en).to_owned())
-        };
-        list.iter().map(line).collect()
-    };
+    let told = |word: Piece| word.say(common.lang.language()).into_owned();
     let arcs: Vec<CorridorArc> = arcs.collect();
     // In the second variant an arc has commands, not a code.
     let has_codes = arcs.iter().any(|arc| !arc.label.is_empty());
-    let sign = |&(sign, words): &(CorridorSign, [&'static str; 2])| {
-        let [ru, en] = if sign == CorridorSign::Arc && !has_codes { PLAIN_ARC } else { words };
-        (sign, common.lang.pick(ru, en).to_owned())
+    let sign = |&(sign, word): &(CorridorSign, Piece)| {
+        (sign, told(if sign == CorridorSign::Arc && !has_codes { PLAIN_ARC } else { word }))
     };
     Ok(corridor_svg(&CorridorDrawing {
         title,
         vertices: vertices.collect(),
         arcs,
-        codes: told(&CODES),
+        codes: CODES.iter().map(|(code, word)| (code.to_string(), told(*word))).collect(),
         signs: SIGNS.iter().map(sign).collect(),
         notes,
     }))
 }
 
 /// The codes of paper 4, table 1, in words, and those beyond it.
-const CODES: [(u8, [&str; 2]); 10] = [
-    (1, ["перекрёсток", "crossing"]),
-    (2, ["Т-образное соединение", "T-junction"]),
-    (3, ["ответвление направо", "branch right"]),
-    (4, ["ответвление налево", "branch left"]),
-    (5, ["поворот направо", "turn right"]),
-    (6, ["поворот налево", "turn left"]),
-    (7, ["звезда, пути считаются справа", "star, ways are counted from the right"]),
-    (11, ["дверь справа", "door on the right"]),
-    (12, ["дверь слева", "door on the left"]),
-    (13, ["дверь прямо", "door ahead"]),
+const CODES: [(u8, Piece); 10] = [
+    (1, word!("code-crossing")),
+    (2, word!("code-t-junction")),
+    (3, word!("code-branch-right")),
+    (4, word!("code-branch-left")),
+    (5, word!("code-turn-right")),
+    (6, word!("code-turn-left")),
+    (7, word!("code-star")),
+    (11, word!("code-door-right")),
+    (12, word!("code-door-left")),
+    (13, word!("code-door-ahead")),
 ];
 
-const SIGNS: [(CorridorSign, [&str; 2]); 5] = [
-    (CorridorSign::Entrance, ["вход в помещение", "entrance of a room"]),
-    (CorridorSign::Junction, ["соединение коридоров", "junction of corridors"]),
-    (
-        CorridorSign::Arc,
-        ["дуга с кодом того, к чему ведёт", "arc with the code of what it leads to"],
-    ),
-    (CorridorSign::Way, ["путь", "the way"]),
-    (CorridorSign::UTurn, ["разворот", "U-turn"]),
+const SIGNS: [(CorridorSign, Piece); 5] = [
+    (CorridorSign::Entrance, word!("sign-entrance")),
+    (CorridorSign::Junction, word!("sign-junction")),
+    (CorridorSign::Arc, word!("sign-arc")),
+    (CorridorSign::Way, word!("sign-way")),
+    (CorridorSign::UTurn, word!("sign-u-turn")),
 ];
 
-const PLAIN_ARC: [&str; 2] = ["ход от входа к входу", "drive from entrance to entrance"];
+const PLAIN_ARC: Piece = word!("sign-plain-arc");
 
 fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Directions), Failure> {
     let mut system = match (&args.file, &args.map) {

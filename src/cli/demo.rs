@@ -10,9 +10,9 @@ use crate::engine::{
 use crate::recording::{Played, RecordingError};
 use crate::robot::Vehicle;
 use crate::strips::Scenario;
-use crate::units::{Carried, carried, write_file};
+use crate::units::{Carried, carried, told, word, write_file};
 
-use super::args::{Common, Lang};
+use super::args::Common;
 use super::fault::Failure;
 use super::opened::rules_dir;
 use super::signals::stopped_by_signals;
@@ -30,7 +30,8 @@ pub(super) fn run(
     task: Option<&str>,
     out: &Path,
 ) -> Result<Answer, Failure> {
-    let task = task.unwrap_or(common.lang.pick("Принеси лекарство", "Bring the medicine"));
+    let usual = word!("bring-the-medicine").say(common.lang.language());
+    let task = task.unwrap_or(&usual);
     let scratch = Scratch::new().map_err(|e| Failure::file(&std::env::temp_dir(), &e))?;
     let map = match map {
         Some(path) => path.to_owned(),
@@ -41,12 +42,13 @@ pub(super) fn run(
     let imported = engine.import(&map, &change_now(&common.user, "demo"))?;
     if !common.json {
         let world = engine.world()?;
-        say(&format!("{} {}", common.lang.pick("Карта", "Map"), described(world, common.lang)))?;
-        say(&match common.lang {
-            Lang::Ru => format!("Записана в хранилище, ревизия {}.\n", imported.report.revision),
-            Lang::En => format!("Stored as revision {}.\n", imported.report.revision),
-        })?;
-        say(common.lang.pick("Выведено из геометрии:", "Derived from the geometry:"))?;
+        say(&format!(
+            "{} {}",
+            told!(common.lang.language(), "map"),
+            described(world, common.lang)
+        ))?;
+        say(&told!(common.lang.language(), "stored", revision = imported.report.revision))?;
+        say(&told!(common.lang.language(), "derived-from-the-geometry"))?;
         say(&text::counts(engine.relations()?, common.lang))?;
         say("")?;
     }
@@ -58,7 +60,7 @@ pub(super) fn run(
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, answer, &drawing)? {
         if !common.json {
-            say(&format!("{} {}", common.lang.pick("Рисунок:", "Drawing:"), drawn.display()))?;
+            say(&format!("{} {}", told!(common.lang.language(), "drawing"), drawn.display()))?;
         }
     }
     Ok(came_to(answer))

@@ -10,9 +10,9 @@ use crate::engine::{
     face_in_words, no_way_in_words,
 };
 use crate::robot::Directive;
-use crate::units::{MapId, Point, write_file};
+use crate::units::{MapId, Point, told, write_file};
 
-use super::args::{Common, Lang, LogOnMap};
+use super::args::{Common, LogOnMap};
 use super::corridor::CorridorArgs;
 use super::fault::Failure;
 use super::notes::note;
@@ -206,16 +206,11 @@ fn draw_sight(common: &Common, args: &SightArgs) -> Result<Vec<String>, Failure>
     let map = engine.map_named(args.of.map.as_deref())?;
     let log = Sighted::read(&args.of.log)?;
     let Some(seen) = engine.sighting(map, &log, args.scan, args.of.height, args.posed)? else {
-        note(
-            common.lang.pick("Неизвестно, где этот скан снят.", "Where it was taken is not known."),
-        );
+        note(&told!(common.lang.language(), "scan-unplaced"));
         return Ok(Vec::new());
     };
     if seen.is_one_of > 1 {
-        note(&match common.lang {
-            Lang::Ru => format!("Подходит мест: {}; показано лучшее.", seen.is_one_of),
-            Lang::En => format!("{} poses fit; the best is shown.", seen.is_one_of),
-        });
+        note(&told!(common.lang.language(), "one-of-poses", is_one_of = seen.is_one_of));
     }
     Ok(vec![engine.draw_sighting(map, &seen, common.lang.language())?])
 }
@@ -236,7 +231,7 @@ fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure
             Ok(route) => route,
             Err(why) => {
                 note(&no_way_in_words(world, why, language));
-                let head = common.lang.pick("Чтобы открыть путь:", "To open a way:");
+                let head = told!(common.lang.language(), "to-open-a-way");
                 let advice = journey.advice.as_ref().map(|a| a.in_words(world, language));
                 advice.iter().for_each(|advice| note(&format!("{head} {advice}.")));
                 return Ok(Vec::new());
@@ -307,11 +302,9 @@ fn tell_faces(common: &Common, args: &ViewArgs) -> Result<Answer, Failure> {
     let line = |face: &crate::geometry::FaceInView| {
         let name = face_in_words(world, &face.face, language);
         let share = (100.0 * face.area / face.whole.max(1e-9)).clamp(0.0, 100.0);
-        let away = crate::engine::decimal(face.distance / 100.0, language.pick("м", "m"), language);
-        match common.lang {
-            Lang::Ru => format!("{name} – видно {share:.0} %, {away}"),
-            Lang::En => format!("{name} – {share:.0}% in view, {away}"),
-        }
+        let away =
+            crate::engine::decimal(face.distance / 100.0, &told!(language, "metres"), language);
+        told!(common.lang.language(), "in-view", name, share = format!("{share:.0}"), away)
     };
     say(&faces.iter().map(line).collect::<Vec<_>>().join("\n"))
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::engine::Engine;
 use crate::map::Format;
-use crate::units::{MapId, write_file};
+use crate::units::{MapId, told, write_file};
 
 use super::args::{Common, ExportArgs};
 use super::fault::Failure;
@@ -52,7 +52,7 @@ pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure>
     if common.json {
         return say(&json::exported(&names).to_string());
     }
-    say(&format!("{}: {}.", common.lang.pick("Записано", "Written"), names.join(", ")))
+    say(&format!("{}: {}.", told!(common.lang.language(), "written"), names.join(", ")))
 }
 
 /// A picture and its YAML for every floor, or for the one that was named.
@@ -94,10 +94,7 @@ fn masks(
         }
     }
     if written.len() == before {
-        note(common.lang.pick(
-            "Масок нет: сейчас не действует ни одна зона, закрытая или медленная.",
-            "There is no mask: no zone that is shut or slow is in force now.",
-        ));
+        note(&told!(common.lang.language(), "no-mask"));
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use miette::{
 
 use crate::engine::{Error, RequestError, json};
 
-use crate::units::{English, Language, OwnText};
+use crate::units::{English, OwnText, told};
 
 use super::args::{Color, Lang};
 use super::config_error::ConfigError;
@@ -73,7 +73,7 @@ impl Failure {
         super::waiting::over();
         match self {
             Self::Output(reason) => {
-                eprintln!("ortho: {}: {reason}", lang.pick("вывод прерван", "output broke off"));
+                eprintln!("ortho: {}: {reason}", told!(lang.language(), "output-broke-off"));
                 ExitCode::from(3)
             }
             Self::Config(error) => match lang {
@@ -161,9 +161,16 @@ impl SourceCode for Excerpts<'_> {
         // What is no file is called by a word, which each language has its own of.
         let Some(own) = contents.name().and_then(OwnText::named) else { return Ok(contents) };
         let (data, at, lines) = (contents.data(), *contents.span(), contents.line_count());
-        let name = self.1.pick(own.name(Language::Russian), own.name(Language::English));
+        let name = own.name(self.1.language());
         let (line, column) = (contents.line(), contents.column());
-        Ok(Box::new(MietteSpanContents::new_named(name.into(), data, at, line, column, lines)))
+        Ok(Box::new(MietteSpanContents::new_named(
+            name.into_owned(),
+            data,
+            at,
+            line,
+            column,
+            lines,
+        )))
     }
 }
 

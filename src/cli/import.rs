@@ -1,8 +1,9 @@
 //! `ortho import`: a building of any known format into the store, with the report of what became of it.
 
 use crate::engine::{Engine, ImportOptions, change_now, json};
+use crate::units::told;
 
-use super::args::{Common, ImportArgs, Lang};
+use super::args::{Common, ImportArgs};
 use super::fault::Failure;
 use super::notes::{note, note_repairs, warn};
 use super::opened::{rules_dir, store_dir};
@@ -45,16 +46,11 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     }
     let (lang, revision) = (common.lang, imported.report.revision);
     let [created, changed, deleted] = [counts.created, counts.changed, counts.deleted];
-    let what = match (counts.total(), lang) {
-        (0, _) => lang.pick("ничего не изменилось", "nothing changed").to_owned(),
-        (_, Lang::Ru) => {
-            format!("записей создано {created}, изменено {changed}, удалено {deleted}")
-        }
-        (_, Lang::En) => {
-            format!("{created} records created, {changed} changed, {deleted} deleted")
-        }
+    let what = match counts.total() {
+        0 => told!(lang.language(), "nothing-changed"),
+        _ => told!(lang.language(), "records", created, changed, deleted),
     };
-    let head = lang.pick("Ревизия", "Revision");
+    let head = told!(lang.language(), "revision");
     say(&format!("{}\n{head} {revision}: {what}.", described(world, lang)))
 }
 
@@ -82,6 +78,6 @@ fn tables(common: &Common, file: &std::path::Path) -> Result<Answer, Failure> {
     if common.json {
         return say(&json::imported_tables(world, &report).to_string());
     }
-    let head = common.lang.pick("Ревизия", "Revision");
+    let head = told!(common.lang.language(), "revision");
     say(&format!("{}\n{head} {}.", described(world, common.lang), report.revision))
 }

@@ -4,8 +4,9 @@ use clap::Args;
 
 use crate::engine::{FoundPose, FoundScan, Sighted, json};
 use crate::language::report::Detail;
+use crate::units::told;
 
-use super::args::{Common, Lang, LogOnMap};
+use super::args::{Common, LogOnMap};
 use super::fault::Failure;
 use super::notes::warn_of_lines;
 use super::opened::open;
@@ -45,24 +46,21 @@ pub(super) fn run(common: &Common, args: &LocateArgs) -> Result<Answer, Failure>
 
 fn tell(common: &Common, found: &FoundScan) -> String {
     let lang = common.lang;
-    let scan = format!("{} {}", lang.pick("Скан", "Scan"), found.scan);
+    let scan = format!("{} {}", told!(lang.language(), "scan"), found.scan);
     let event = found.event_in_words(lang.language());
     let event = event.map_or_else(String::new, |event| format!(" ({event})"));
     let telling = found.telling_in_words(lang.language()).map_or_else(String::new, |told| {
-        format!(" {}: {told}.", lang.pick("Различить поможет", "What would tell"))
+        format!(" {}: {told}.", told!(lang.language(), "what-would-tell"))
     });
     if let Some(why) = found.unknown_in_words(lang.language()) {
-        let unknown = lang.pick("место неизвестно", "place unknown");
+        let unknown = told!(lang.language(), "place-unknown");
         return format!("{scan}{event}: {unknown}: {why}.{telling}");
     }
     let poses: Vec<String> = found.poses.iter().map(|pose| tell_pose(common, pose)).collect();
     match &poses[..] {
         [only] => format!("{scan}{event}: {only}"),
         several => {
-            let head = match lang {
-                Lang::Ru => format!("одно из мест ({})", several.len()),
-                Lang::En => format!("one of {} places", several.len()),
-            };
+            let head = told!(lang.language(), "one-of-places", several = several.len());
             format!("{scan}{event}: {head}: {}{telling}", several.join(" "))
         }
     }
@@ -71,7 +69,7 @@ fn tell(common: &Common, found: &FoundScan) -> String {
 fn tell_pose(common: &Common, found: &FoundPose) -> String {
     let (lang, lengths) = (common.lang, common.units);
     let place = found.place.as_ref().map_or_else(
-        || lang.pick("Это вне всех комнат.", "That is outside of all rooms.").to_owned(),
+        || told!(lang.language(), "outside-of-rooms"),
         |place| place.position.say_in(lang.language(), Detail::Region),
     );
     let (at, heading) = (found.pose.at, found.pose.heading.get());

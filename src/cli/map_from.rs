@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use crate::engine::{Engine, Sighted, json};
 use crate::map::Format;
-use crate::units::write_file;
+use crate::units::{told, write_file};
 use clap::Args;
 
-use super::args::{Common, Lang};
+use super::args::Common;
 use super::fault::Failure;
 use super::notes::warn_of_lines;
 use super::{Answer, say};
@@ -46,11 +46,8 @@ pub(super) fn run(common: &Common, args: &MapFromArgs) -> Result<Answer, Failure
         let value = json::map_of_log(path, [rooms, doors, things], log.faults());
         say(&value.to_string())?;
     } else {
-        let told = if common.lang == Lang::En {
-            format!("{}: {rooms} rooms, {doors} doorways, {things} things.", path.display())
-        } else {
-            format!("{}: помещений {rooms}, проходов {doors}, предметов {things}.", path.display())
-        };
+        let path = path.display().to_string();
+        let told = told!(common.lang.language(), "rooms-of-log", path, rooms, doors, things);
         say(&told)?;
         warn_of_lines(&log, common.lang);
     }

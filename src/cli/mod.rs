@@ -51,6 +51,7 @@ use crate::engine::{Outcome, TaskAnswer, TaskEnding, json};
 use crate::language::question::Said;
 
 use args::{Arguments, Command};
+pub(crate) use config_error::ConfigError;
 use fault::Failure;
 
 /// What a command came to.

@@ -3,6 +3,7 @@
 use crate::engine::{Engine, Sighted};
 use crate::map::MapErrors;
 use crate::recording::Played;
+use crate::units::told;
 
 use super::args::{Common, Lang};
 use super::fault::drawn;
@@ -18,10 +19,7 @@ pub(super) fn note_cut(common: &Common, played: &Played) {
     let Some(cut) = &played.cut else { return };
     let begun = played.told.first().map_or(0, |first| first.time);
     let (lasted, cut) = (seconds(played.end(), begun), cut.say(common.lang.language()));
-    note(&match common.lang {
-        Lang::Ru => format!("Запись обрывается на {lasted} с: {cut}."),
-        Lang::En => format!("The recording breaks off after {lasted} s: {cut}."),
-    });
+    note(&told!(common.lang.language(), "recording-cut", lasted, cut));
 }
 
 /// Of a recording, to the millisecond.
@@ -31,35 +29,17 @@ pub(super) fn seconds(time: u64, begun: u64) -> f64 {
 
 pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
     let opened = &engine.opened;
-    let store = lang.pick("Хранилище", "The store");
+    let store = told!(lang.language(), "the-store");
     if opened.torn_bytes > 0 {
         let bytes = opened.torn_bytes;
-        note(&match lang {
-            Lang::Ru => format!(
-                "{store}: последняя запись была прервана и не подтверждена; отброшено {bytes} байт."
-            ),
-            Lang::En => format!(
-                "{store}: the last record was cut off and not confirmed; {bytes} bytes are dropped."
-            ),
-        });
+        note(&told!(lang.language(), "torn-record", store, bytes));
     }
-    let tables = lang
-        .pick("таблицы построены заново по журналу", "the tables are built anew from the journal");
-    let journal = lang
-        .pick("журнал записан заново по таблицам", "the journal is written anew from the tables");
-    let read = lang.pick(
-        "прочитано по таблицам, потому что журнал неполон (открытие для записи восстановит его)",
-        "read from the tables, since the journal is incomplete (opening to write mends it)",
-    );
-    let off = lang.pick(
-        "таблицы не ведутся, всё остаётся в журнале и снимках",
-        "the tables are not kept, everything stays in journal and snapshots",
-    );
-    let past = lang.pick(
-        "файл прошлого был утрачен или испорчен и записан заново по второму",
-        "a file of the past was lost or broken, and is written anew from its twin",
-    );
-    let shut = lang.pick("писать в него нельзя", "it cannot be written");
+    let tables = told!(lang.language(), "tables-rebuilt");
+    let journal = told!(lang.language(), "journal-rewritten");
+    let read = told!(lang.language(), "read-from-tables");
+    let off = told!(lang.language(), "tables-off");
+    let past = told!(lang.language(), "past-rewritten");
+    let shut = told!(lang.language(), "read-only");
     for (what, why) in [
         (tables, &opened.tables_rebuilt),
         (journal, &opened.journal_renewed),
@@ -73,7 +53,7 @@ pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
         }
     }
     for name in &opened.marks_renewed {
-        let renewed = lang.pick("был утрачен или испорчен", "was lost or broken");
+        let renewed = told!(lang.language(), "mark-renewed");
         note(&format!("{store}: {name} {renewed}."));
     }
 }

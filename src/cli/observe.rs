@@ -2,7 +2,7 @@
 
 use crate::engine::{Believed, Engine, Source, Timestamp, change_now};
 use crate::store::Seen;
-use crate::units::{Deg, Frame, Lengths};
+use crate::units::{Deg, Frame, Lengths, told};
 use clap::{Args, Subcommand};
 
 use super::args::{Common, Lang, moment};
@@ -10,6 +10,7 @@ use super::edit::Numbers;
 use super::fault::Failure;
 use super::number::finite;
 use super::opened::{open, open_to_write};
+use super::text::spoken;
 use super::{Answer, json, say};
 
 #[derive(Debug, Subcommand)]
@@ -114,8 +115,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             if common.json {
                 return say(&json::changed("confirmed", &report).to_string());
             }
-            let written =
-                common.lang.pick("Карта исправлена, правка", "The map is corrected, revision");
+            let written = told!(common.lang.language(), "map-corrected");
             say(&format!("{written} {}.", report.revision))
         }
         ObserveCommand::Reject { name, reason } => {
@@ -125,10 +125,7 @@ pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, F
             if common.json {
                 return say(&json::rejected(engine.revision()).to_string());
             }
-            say(common.lang.pick(
-                "Отклонено: считается, что вещь стоит там, где на карте.",
-                "Rejected: the thing is held to stand where the map has it.",
-            ))
+            say(&told!(common.lang.language(), "proposal-rejected"))
         }
     }
 }
@@ -172,15 +169,10 @@ fn proposals(common: &Common) -> Result<Answer, Failure> {
         return say(&json::proposals(&engine, &all)?.to_string());
     }
     if all.is_empty() {
-        return say(common.lang.pick("Поправок нет.", "There are no proposals."));
+        return say(&told!(common.lang.language(), "no-proposals"));
     }
     let lines = all.iter().map(|p| told(&engine, p, common.lang)).collect::<Result<Vec<_>, _>>()?;
     say(&lines.join("\n"))
-}
-
-/// A name in the language of the answer, where it has one.
-fn spoken<'n>(name: &'n str, name_en: &'n str, lang: Lang) -> &'n str {
-    if lang == Lang::En && !name_en.is_empty() { name_en } else { name }
 }
 
 fn place(engine: &Engine, seen: &Seen, lang: Lang) -> Result<String, Failure> {
@@ -195,32 +187,24 @@ fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure
     let replica = engine.uncarried()?.replicas.get(&found.replica);
     let replica = replica.or(engine.world()?.replicas.get(&found.replica));
     let name = replica.map_or(found.name.as_str(), |r| spoken(&r.name, &r.name_en, lang));
-    match (found.carried.as_deref(), lang) {
-        (Some(""), Lang::Ru) => return Ok(format!("{name}: в руке робота.")),
-        (Some(""), Lang::En) => return Ok(format!("{name}: in the robot's hand.")),
-        (Some(who), Lang::Ru) => return Ok(format!("{name}: у человека: {who}.")),
-        (Some(who), Lang::En) => return Ok(format!("{name}: handed to {who}.")),
-        (None, _) => {}
+    match found.carried.as_deref() {
+        Some("") => return Ok(told!(lang.language(), "in-the-robots-hand", name)),
+        Some(who) => return Ok(told!(lang.language(), "handed-to", name, who)),
+        None => {}
     }
     let sure = (b.confidence * 100.0).round();
     let here = place(engine, &b.place, lang)?;
     let since = b.since.in_words();
-    let missed = match (b.missed.map(Timestamp::in_words), lang) {
-        (None, _) => String::new(),
-        (Some(at), Lang::Ru) => format!("; осмотр {at} этого не подтвердил"),
-        (Some(at), Lang::En) => format!("; a look at {at} did not find it there"),
-    };
+    let missed = b.missed.map(|at| told!(lang.language(), "missed", at = at.in_words()));
+    let missed = missed.unwrap_or_default();
     let map = match &found.surveyed {
-        _ if b.is_surveyed => lang.pick("как на карте", "as on the map").to_owned(),
+        _ if b.is_surveyed => told!(lang.language(), "as-on-the-map"),
         Some(surveyed) => {
-            format!("{} {}", lang.pick("на карте:", "on the map:"), place(engine, surveyed, lang)?)
+            format!("{} {}", told!(lang.language(), "on-the-map"), place(engine, surveyed, lang)?)
         }
-        None => lang.pick("на карте этого нет", "not on the map").to_owned(),
+        None => told!(lang.language(), "not-on-the-map"),
     };
-    Ok(match lang {
-        Lang::Ru => format!("{name}: {here}, с {since}, уверенность {sure} % – {map}{missed}."),
-        Lang::En => format!("{name}: {here}, since {since}, {sure} % sure – {map}{missed}."),
-    })
+    Ok(told!(lang.language(), "believed-at", name, here, since, sure, map, missed))
 }
 
 fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
@@ -233,20 +217,15 @@ fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
     for station in &stations {
         let here = match &station.place {
             Some(seen) => place(&engine, seen, common.lang)?,
-            None => common.lang.pick("нет на месте", "not there").to_owned(),
+            None => told!(common.lang.language(), "not-there"),
         };
-        let source = match (&station.source, common.lang) {
-            (Source::Map { revision, user }, Lang::Ru) => {
-                format!("карта, правка {revision} ({user})")
+        let source = match &station.source {
+            Source::Map { revision, user } => {
+                told!(common.lang.language(), "source-map", revision, user)
             }
-            (Source::Map { revision, user }, Lang::En) => {
-                format!("map, revision {revision} ({user})")
-            }
-            (Source::Seen { observer, sure }, Lang::Ru) => {
-                format!("видел: {observer}, уверенность {:.0} %", sure * 100.0)
-            }
-            (Source::Seen { observer, sure }, Lang::En) => {
-                format!("seen by {observer}, {:.0} % sure", sure * 100.0)
+            Source::Seen { observer, sure } => {
+                let sure = format!("{:.0}", sure * 100.0);
+                told!(common.lang.language(), "source-seen", observer, sure)
             }
         };
         lines.push(format!("{}  {here} – {source}", station.at.in_words()));

@@ -14,7 +14,7 @@ use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
 use crate::robot::Wanted;
 use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario, Wording};
-use crate::units::{English, write_file};
+use crate::units::{English, told, write_file};
 
 use super::args::{Common, Lang, parse_seconds};
 use super::fault::{Failure, drawn};
@@ -237,47 +237,41 @@ fn with_reasons(
 }
 
 fn help(solved: &Solved, args: &PlanArgs, language: Language) -> String {
-    let told: Vec<&str> = remedies(solved, args)
+    let told: Vec<String> = remedies(solved, args)
         .into_iter()
         .map(|remedy| match remedy {
-            "--any" => language.pick(
-                "--any (план скоро, без доказательства, что он кратчайший)",
-                "--any (a plan soon, not proven to be the shortest)",
-            ),
-            "--effort" => language.pick("больше усилий (--effort)", "more effort (--effort)"),
+            "--any" => told!(language, "remedy-any"),
+            "--effort" => told!(language, "remedy-effort"),
             "--time-limit" => {
-                language.pick("больше времени (--time-limit)", "more time (--time-limit)")
+                told!(language, "remedy-time")
             }
-            _ => language.pick("больше памяти (--memory-limit)", "more memory (--memory-limit)"),
+            _ => told!(language, "remedy-memory"),
         })
         .collect();
     if told.is_empty() {
         return String::new();
     }
-    let (head, or) =
-        (language.pick("Помогло бы: ", "It would help: "), language.pick(" или ", " or "));
-    format!("\n{head}{}", told.join(or))
+    let (head, or) = (told!(language, "it-would-help"), told!(language, "or"));
+    format!("\n{head}{}", told.join(&or))
 }
 
 /// A plan found soon is told of at once, and so is every shorter one made of it; the last is the answer.
 fn interim(lang: Lang) -> fn(&Plan) {
+    fn tell(plan: &Plan, language: Language) {
+        let (steps, actions) = (plan.steps.len(), plan.action_count());
+        note(&told!(language, "plan-found", steps, actions));
+    }
     match lang {
-        Lang::Ru => |plan| {
-            let (steps, actions) = (plan.steps.len(), plan.action_count());
-            note(&format!("Найден план: шагов {steps}, действий {actions}; ищется короче."));
-        },
-        Lang::En => |plan| {
-            let size = text::english_size(plan.steps.len(), plan.action_count());
-            note(&format!("A plan is found: {size}; a shorter one is sought."));
-        },
+        Lang::Ru => |plan| tell(plan, Language::Russian),
+        Lang::En => |plan| tell(plan, Language::English),
     }
 }
 
 /// With `--anytime`, every higher bound is told of.
 fn bound(lang: Lang) -> fn(usize) {
     match lang {
-        Lang::Ru => |least| note(&format!("Доказано: шагов нужно не меньше {least}.")),
-        Lang::En => |least| note(&format!("Proven: at least {least} steps are needed.")),
+        Lang::Ru => |least| note(&told!(Language::Russian, "plan-bound", least)),
+        Lang::En => |least| note(&told!(Language::English, "plan-bound", least)),
     }
 }
 
@@ -315,7 +309,7 @@ fn facts(common: &Common, predicate: Option<&str>) -> Result<Answer, Failure> {
     }
     let facts = engine.facts_in_rule_text(predicate, common.lang.language())?;
     if facts.is_empty() {
-        return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
+        return say(&told!(common.lang.language(), "no-such-facts"));
     }
     say(facts.trim_end())
 }

@@ -6,6 +6,7 @@ use super::opened::open;
 use super::why::Names;
 use super::{Answer, say};
 use crate::facts::Limits;
+use crate::units::told;
 
 /// Runs the command; no answer at all is "no".
 pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> {
@@ -29,15 +30,15 @@ pub(super) fn run(common: &Common, args: &QueryArgs) -> Result<Answer, Failure> 
         let (open, close) = language.pick(("«", "»"), ("“", "”"));
         let texts: Vec<String> =
             answer.unknown.iter().map(|text| format!("{open}{text}{close}")).collect();
-        let text = common.lang.pick("в фактах такого нет", "no fact holds this");
+        let text = told!(common.lang.language(), "no-fact-holds-this");
         super::notes::note(&format!("{}: {text}", texts.join(", ")));
     }
     let mut lines = Vec::new();
     match (answer.columns.is_empty(), answer.rows.is_empty()) {
-        (true, false) => lines.push(common.lang.pick("Да.", "Yes.").to_owned()),
-        (true, true) => lines.push(common.lang.pick("Нет.", "No.").to_owned()),
+        (true, false) => lines.push(told!(common.lang.language(), "yes")),
+        (true, true) => lines.push(told!(common.lang.language(), "no")),
         (false, true) => {
-            lines.push(common.lang.pick("Ответов нет.", "There are no answers.").to_owned());
+            lines.push(told!(common.lang.language(), "no-answers"));
         }
         (false, false) => {
             let mut table = super::text::table();

@@ -3,7 +3,7 @@
 use crate::engine::{Engine, Region, State, json};
 use crate::map::Entity;
 use crate::semantics::Claim;
-use crate::units::Point;
+use crate::units::{Point, told};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -32,11 +32,9 @@ pub(super) fn run(common: &Common, text: &str, at: Option<&str>) -> Result<Answe
     } else {
         say(&in_words(&engine, &region, square, middle, common.lang)?)?;
         if let Some(holds) = holds {
-            say(match holds {
-                true => common.lang.pick("Поза лежит в этой области.", "The pose lies in it."),
-                false => common
-                    .lang
-                    .pick("Поза не лежит в этой области.", "The pose does not lie in it."),
+            say(&match holds {
+                true => told!(common.lang.language(), "pose-lies-in-region"),
+                false => told!(common.lang.language(), "pose-lies-elsewhere"),
             })?;
         }
     }
@@ -52,17 +50,17 @@ fn in_words(
 ) -> Result<String, Failure> {
     let name = engine.world()?.name(Entity::Area(region.area)).to_owned();
     let point =
-        middle.map(|p| format!("{}{:.0},{:.0}", lang.pick(", например ", ", such as "), p.x, p.y));
-    let (head, unit) = (lang.pick("Область", "Region"), lang.pick("м²", "m²"));
+        middle.map(|p| format!("{}{:.0},{:.0}", told!(lang.language(), "such-as"), p.x, p.y));
+    let (head, unit) = (told!(lang.language(), "region"), told!(lang.language(), "square-metres"));
     let kind = match &region.claim {
-        Claim::InArea => lang.pick("где угодно", "anywhere"),
-        Claim::InDoorway(_) => lang.pick("в проёме", "in the doorway"),
-        Claim::AtDoor(_) => lang.pick("у двери или прохода", "at the door or passage"),
-        Claim::On(_) => lang.pick("на вещи", "on a thing"),
-        Claim::NextTo(_) => lang.pick("рядом с вещью", "next to a thing"),
-        Claim::InCorner => lang.pick("в углу", "in a corner"),
-        Claim::AlongWall => lang.pick("у стены", "by a wall"),
-        Claim::InMiddle => lang.pick("в середине", "in the middle"),
+        Claim::InArea => told!(lang.language(), "anywhere"),
+        Claim::InDoorway(_) => told!(lang.language(), "in-the-doorway"),
+        Claim::AtDoor(_) => told!(lang.language(), "at-the-door-or-passage"),
+        Claim::On(_) => told!(lang.language(), "on-a-thing"),
+        Claim::NextTo(_) => told!(lang.language(), "next-to-a-thing"),
+        Claim::InCorner => told!(lang.language(), "in-a-corner"),
+        Claim::AlongWall => told!(lang.language(), "by-a-wall"),
+        Claim::InMiddle => told!(lang.language(), "in-the-middle"),
     };
     Ok(format!("{head}: {name}, {kind}, {square:.2} {unit}{}.", point.unwrap_or_default()))
 }

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use crate::engine::{Recording, json};
 use crate::recording::{Played, Told};
-use crate::units::Timestamp;
+use crate::units::{Timestamp, told};
 
-use super::args::{Common, Lang, ReplayArgs};
+use super::args::{Common, ReplayArgs};
 use super::fault::Failure;
 use super::notes::{note_cut, seconds};
 use super::{Answer, say};
@@ -19,10 +19,7 @@ pub(super) fn run(common: &Common, args: &ReplayArgs) -> Result<Answer, Failure>
     if !common.json {
         let domain = about.get("domain").map_or("", String::as_str);
         let at = Timestamp((begun / 1_000_000) as i64).in_words();
-        say(&match common.lang {
-            Lang::Ru => format!("Запись: «{domain}», {at}."),
-            Lang::En => format!("Recording of “{domain}”, {at}."),
-        })?;
+        say(&told!(common.lang.language(), "recording-of", domain, at))?;
     }
     let mut before = begun;
     for one in told {

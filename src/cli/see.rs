@@ -1,5 +1,6 @@
 //! `ortho see`: what a robot saw, as segments, things and changes (paper 3).
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -7,8 +8,7 @@ use serde_json::Value;
 
 use crate::Segment;
 use crate::engine::{Changes, Sighted, Things, View, decimal, json};
-use crate::language::words::english;
-use crate::units::Lengths;
+use crate::units::{Lengths, told, word};
 
 use super::args::{Common, Lang};
 use super::draw::put_drawing;
@@ -87,49 +87,35 @@ fn shown(common: &Common, args: &SeeArgs, sighted: &Sighted) -> Result<Shown, Fa
     Ok(Shown { value: json::view(&view), words, drawing })
 }
 
-fn count(number: usize, noun: &str) -> String {
-    english::count(number as u64, noun)
-}
-
 fn tell_view(common: &Common, view: &View, scans: usize) -> String {
     let lang = common.lang;
     // The points of a picture are its own.
     let lengths = if view.is_picture { Lengths::Cm } else { common.units };
-    let head = match (lang, view.is_picture) {
-        (Lang::Ru, true) => format!("Картинка: отрезков {}", view.segments.len()),
-        (Lang::En, true) => format!("Picture: {}", count(view.segments.len(), "segment")),
-        (Lang::Ru, false) => format!(
-            "Скан {} из {scans}, строка {}: лучей {}, вернулось {}, отрезков {}",
-            view.scan,
-            view.line,
-            view.beams,
-            view.returns.len(),
-            view.segments.len()
-        ),
-        (Lang::En, false) => format!(
-            "Scan {} of {scans}, line {}: {}, {} returned, {}",
-            view.scan,
-            view.line,
-            count(view.beams, "beam"),
-            view.returns.len(),
-            count(view.segments.len(), "segment")
-        ),
+    let (segments, language) = (view.segments.len(), lang.language());
+    let head = match view.is_picture {
+        true => told!(language, "picture", segments),
+        false => {
+            let (scan, line, beams, returns) =
+                (view.scan, view.line, view.beams, view.returns.len());
+            told!(language, "scan-of", scan, scans, line, beams, returns, segments)
+        }
     };
     let lines =
         view.segments.iter().enumerate().map(|(k, s)| tell(lang, lengths, k, s, view.is_picture));
-    let points = view.points.iter().map(|p| match lang {
-        Lang::Ru => format!("  тонкое у {}", lengths.point(p.x, p.y, 0)),
-        Lang::En => format!("  thin at {}", lengths.point(p.x, p.y, 0)),
-    });
+    let points = view
+        .points
+        .iter()
+        .map(|p| told!(lang.language(), "thin-at", point = lengths.point(p.x, p.y, 0)));
     std::iter::once(head).chain(lines).chain(points).collect::<Vec<_>>().join("\n")
 }
 
 /// A segment: ends, length, what the ends are.
 fn tell(lang: Lang, lengths: Lengths, k: usize, segment: &Segment<2>, is_picture: bool) -> String {
-    let unit = if is_picture { lang.pick("тчк", "px") } else { lengths.word(lang.language()) };
-    let length = decimal(lengths.of(segment.length()), unit, lang.language());
+    let unit =
+        if is_picture { word!("px").say(lang.language()) } else { lengths.word(lang.language()) };
+    let length = decimal(lengths.of(segment.length()), &unit, lang.language());
     let (a, b) = (segment.start, segment.end);
-    let [first, last] = json::ends(segment).map(|end| word(lang, end));
+    let [first, last] = json::ends(segment).map(|end| called(lang, end));
     format!(
         "{:>3}. {} – {}, {length}: {first} – {last}",
         k + 1,
@@ -138,42 +124,39 @@ fn tell(lang: Lang, lengths: Lengths, k: usize, segment: &Segment<2>, is_picture
     )
 }
 
-fn word(lang: Lang, end: &str) -> &str {
-    let russian = match end {
-        "corner" => "угол",
-        "free" => "край",
-        "given" => "задан",
-        "occluded" => "загорожен",
-        "range" => "нет отражения",
-        "field" => "край поля зрения",
-        _ => "неясен",
+fn called(lang: Lang, end: &str) -> Cow<'static, str> {
+    let word = match end {
+        "corner" => word!("end-corner"),
+        "free" => word!("end-free"),
+        "given" => word!("end-given"),
+        "occluded" => word!("end-occluded"),
+        "range" => word!("end-range"),
+        "field" => word!("end-field"),
+        _ => word!("end-unclear"),
     };
-    lang.pick(russian, end)
+    word.say(lang.language())
 }
 
 fn tell_things(common: &Common, things: &Things) -> String {
     let lang = common.lang;
     let lengths = if things.is_picture { Lengths::Cm } else { common.units };
     let all = things.scene.things().len();
-    let mut lines = vec![match lang {
-        Lang::Ru => format!("Вещей {all}, сканов соединено {}", things.views),
-        Lang::En => format!("{}, {} joined", count(all, "thing"), count(things.views, "scan")),
-    }];
+    let mut lines =
+        vec![told!(lang.language(), "things-joined", things = all, scans = things.views)];
     if things.without_pose > 0 {
-        lines.push(match lang {
-            Lang::Ru => format!("Без позы, оставлено: {}", things.without_pose),
-            Lang::En => format!("Without a pose, left out: {}", things.without_pose),
-        });
+        lines.push(told!(
+            lang.language(),
+            "scans-without-pose",
+            without_pose = things.without_pose
+        ));
     }
     for (k, thing) in things.scene.things().iter().enumerate() {
         let model = things.scene.seen(k);
         let at = things.scene.frames()[k].translation.vector;
         let whole = model.segments().iter().filter(|s| s.is_whole()).count();
-        let (id, all, at) = (thing.id.0, model.len(), lengths.point(at.x, at.y, 0));
-        lines.push(match lang {
-            Lang::Ru => format!("{id:>4}. у {at}: отрезков {all}, целых {whole}"),
-            Lang::En => format!("{id:>4}. at {at}: {}, {whole} whole", count(all, "segment")),
-        });
+        let (segments, at) = (model.len(), lengths.point(at.x, at.y, 0));
+        let id = format!("{:>4}", thing.id.0);
+        lines.push(told!(lang.language(), "thing-seen", id, at, segments, whole));
     }
     lines.join("\n")
 }
@@ -181,25 +164,17 @@ fn tell_things(common: &Common, things: &Things) -> String {
 fn tell_changes(common: &Common, changes: &Changes) -> String {
     let (lang, lengths) = (common.lang, common.units);
     let found = &changes.difference;
-    let (pairs, gone, new) = (found.pairs.len(), found.vanished.len(), found.appeared.len());
-    let mut lines = vec![match lang {
-        Lang::Ru => format!("Узнано отрезков {pairs}, не найдено {gone}, новых {new}"),
-        Lang::En => format!("{} known again, {gone} not found, {new} new", count(pairs, "segment")),
-    }];
+    let (segments, gone, new) = (found.pairs.len(), found.vanished.len(), found.appeared.len());
+    let mut lines = vec![told!(lang.language(), "known-again", segments, gone, new)];
     for part in &found.parts {
         let motion = part.motion.isometry;
         let (shift, turn) = (motion.translation.vector, motion.rotation.angle().to_degrees());
-        let (members, unit) = (part.members.len(), lengths.word(lang.language()));
+        let (segments, unit) = (part.members.len(), lengths.word(lang.language()));
         let shift = lengths.point(shift.x, shift.y, 1);
         // No turn has no direction.
         let turn = decimal((turn * 10.0).round() / 10.0 + 0.0, "", lang.language());
         let turn = turn.trim_end();
-        lines.push(match lang {
-            Lang::Ru => format!("  отрезков {members}: сдвиг {shift} {unit}, поворот {turn}°"),
-            Lang::En => {
-                format!("  {}: shift {shift} {unit}, turn {turn}°", count(members, "segment"))
-            }
-        });
+        lines.push(told!(lang.language(), "part-moved", segments, shift, unit = &*unit, turn));
     }
     lines.join("\n")
 }

@@ -9,6 +9,7 @@ use clap::Args;
 use crate::engine::{Engine, Recording, change_now};
 use crate::robot::Address;
 use crate::serve::{Bounds, ServeError, Settings, beside, run as serve, run_for_assistant};
+use crate::units::told;
 
 use super::args::Common;
 use super::demo::Scratch;
@@ -134,7 +135,7 @@ pub(super) fn run(common: &Common, args: &ServeArgs) -> Result<Answer, Failure> 
         ..settings
     };
     let told = |address: &str| {
-        let text = common.lang.pick("Откройте в браузере:", "Open in a browser:");
+        let text = told!(common.lang.language(), "open-in-a-browser");
         // Whoever reads no output can still be served.
         let _ = say(&format!("{text} {address}"));
     };

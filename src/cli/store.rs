@@ -7,7 +7,7 @@ use clap::Subcommand;
 use crate::engine::calls::{self, Call};
 use crate::engine::{Engine, Revision, RevisionKind, Severity, When, change_now};
 use crate::store::{Forgotten, ImportReport, Timestamp};
-use crate::units::write_file;
+use crate::units::{told, write_file};
 
 use super::args::{Common, Lang, when};
 use super::fault::Failure;
@@ -96,7 +96,7 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
             if common.json {
                 return say(&json::backup(file).to_string());
             }
-            let written = common.lang.pick("Копия записана и прочитана:", "Written and read back:");
+            let written = told!(common.lang.language(), "written-and-read-back");
             say(&format!("{written} {}", file.display()))
         }
         StoreCommand::Restore { file } => restore(common, file),
@@ -108,25 +108,22 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
             }
             let Forgotten { versions, not_freed } = forgotten;
             if let Some(why) = not_freed {
-                let text = common.lang.pick(
-                    "Место на диске освободится со следующим снимком, этот не записан",
-                    "Their room on the disk is freed by the next snapshot, this one is not written",
-                );
+                let text = told!(common.lang.language(), "room-not-freed");
                 note(&format!("{text}: {why}."));
             }
-            let forgotten = common.lang.pick("Забыто версий записей:", "Versions forgotten:");
+            let forgotten = told!(common.lang.language(), "versions-forgotten");
             say(&format!("{forgotten} {versions}"))
         }
     }
 }
 
 /// `2026-11-21 09:30:00 UTC`
-fn kind(kind: RevisionKind, lang: Lang) -> &'static str {
+fn kind(kind: RevisionKind, lang: Lang) -> String {
     match kind {
-        RevisionKind::Import => lang.pick("импорт", "import"),
-        RevisionKind::Edit => lang.pick("правка", "edit"),
-        RevisionKind::Undo => lang.pick("отмена", "undo"),
-        RevisionKind::Redo => lang.pick("возврат", "redo"),
+        RevisionKind::Import => told!(lang.language(), "import"),
+        RevisionKind::Edit => told!(lang.language(), "edit"),
+        RevisionKind::Undo => told!(lang.language(), "undo"),
+        RevisionKind::Redo => told!(lang.language(), "redo"),
     }
 }
 
@@ -167,8 +164,7 @@ fn history(common: &Common, last: Option<usize>, with_calls: bool) -> Result<Ans
     if with_calls {
         let (calls, unread) = calls::noted(&calls::file(&store_dir(common)))?;
         if unread > 0 {
-            let text =
-                common.lang.pick("строк с вызовами не читается", "lines of calls do not read");
+            let text = told!(common.lang.language(), "calls-unread");
             note(&format!("{text}: {unread}."));
         }
         entries.extend(calls.into_iter().map(Entry::Call));
@@ -194,7 +190,7 @@ fn history(common: &Common, last: Option<usize>, with_calls: bool) -> Result<Ans
         return say(&view.to_string());
     }
     if entries.is_empty() {
-        return say(common.lang.pick("Правок ещё нет.", "There are no changes yet."));
+        return say(&told!(common.lang.language(), "no-changes-yet"));
     }
     say(&entries.iter().map(|entry| entry.in_words(common.lang)).collect::<Vec<_>>().join("\n"))
 }
@@ -208,7 +204,7 @@ fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure
         return say(&json::diff(first, last, &all, common.lang.language()).to_string());
     }
     if all.is_empty() {
-        return say(common.lang.pick("Различий нет.", "There are no differences."));
+        return say(&told!(common.lang.language(), "no-differences"));
     }
     say(&all.iter().map(|d| d.say(common.lang.language())).collect::<Vec<_>>().join("\n"))
 }
@@ -219,18 +215,16 @@ fn done(common: &Common, outcome: &str, report: &ImportReport) -> Result<Answer,
         return say(&json::changed(outcome, report).to_string());
     }
     if counts.total() == 0 {
-        return say(common.lang.pick("Ничего не изменилось.", "Nothing changed."));
+        return say(&told!(common.lang.language(), "no-records-changed"));
     }
-    say(&match common.lang {
-        Lang::Ru => format!(
-            "Правка {}: записей создано {}, изменено {}, удалено {}.",
-            report.revision, counts.created, counts.changed, counts.deleted
-        ),
-        Lang::En => format!(
-            "Revision {}: {} records created, {} changed, {} deleted.",
-            report.revision, counts.created, counts.changed, counts.deleted
-        ),
-    })
+    say(&told!(
+        common.lang.language(),
+        "revision-written",
+        revision = report.revision,
+        created = counts.created,
+        changed = counts.changed,
+        deleted = counts.deleted
+    ))
 }
 
 fn as_of(
@@ -261,9 +255,9 @@ fn as_of(
 fn fsck(common: &Common) -> Result<Answer, Failure> {
     let report = Engine::check_store(&store_dir(common))?;
     let word = |severity| match severity {
-        Severity::Note => common.lang.pick("заметка", "note"),
-        Severity::Mendable => common.lang.pick("исправимо", "mendable"),
-        Severity::Broken => common.lang.pick("ПОВРЕЖДЕНО", "BROKEN"),
+        Severity::Note => told!(common.lang.language(), "note"),
+        Severity::Mendable => told!(common.lang.language(), "mendable"),
+        Severity::Broken => told!(common.lang.language(), "broken"),
     };
     let told = |f: &crate::store::Finding| f.text.say(common.lang.language()).to_owned();
     let answer = if report.is_sound() { Answer::Yes } else { Answer::No };
@@ -275,24 +269,21 @@ fn fsck(common: &Common) -> Result<Answer, Failure> {
         note(&format!("{}: {}", word(finding.severity), told(finding)));
     }
     let verdict = if report.is_sound() {
-        common.lang.pick("Хранилище исправно", "The store is sound")
+        told!(common.lang.language(), "store-sound")
     } else if report.findings.iter().any(|f| f.severity == Severity::Broken) {
-        common.lang.pick("Хранилище повреждено", "The store is broken")
+        told!(common.lang.language(), "store-broken")
     } else {
-        common
-            .lang
-            .pick("Хранилище исправится при следующем открытии", "The next opening mends the store")
+        told!(common.lang.language(), "store-mendable")
     };
-    say(&match common.lang {
-        Lang::Ru => format!(
-            "{verdict}: транзакций {}, правок {}, записей {} (с историей), снимков {}.",
-            report.lsn, report.revision, report.records, report.snapshots
-        ),
-        Lang::En => format!(
-            "{verdict}: transactions {}, revisions {}, records {} (with history), snapshots {}.",
-            report.lsn, report.revision, report.records, report.snapshots
-        ),
-    })?;
+    say(&told!(
+        common.lang.language(),
+        "store-checked",
+        verdict,
+        lsn = report.lsn,
+        revision = report.revision,
+        records = report.records,
+        snapshots = report.snapshots
+    ))?;
     Ok(answer)
 }
 
@@ -302,8 +293,5 @@ fn restore(common: &Common, file: &Path) -> Result<Answer, Failure> {
     if common.json {
         return say(&json::restored(&dir, revision).to_string());
     }
-    say(&match common.lang {
-        Lang::Ru => format!("Хранилище «{}» восстановлено, правка {revision}.", dir.display()),
-        Lang::En => format!("The store {} is restored, revision {revision}.", dir.display()),
-    })
+    say(&told!(common.lang.language(), "store-restored", dir = dir.display().to_string(), revision))
 }

@@ -6,7 +6,7 @@
 use std::io::{BufRead, IsTerminal};
 
 use crate::engine::{Dialogue, Engine, queue_in_words};
-use crate::units::name_key;
+use crate::units::{name_key, told};
 use rustyline::completion::Completer;
 use rustyline::error::ReadlineError;
 use rustyline::highlight::Highlighter;
@@ -58,19 +58,14 @@ fn on_terminal(common: &Common, talk: &mut Talk) -> Result<Answer, Failure> {
         Editor::with_history(config, MemHistory::new()).map_err(|e| terminal(&e))?;
     let names = talk.engine.names()?;
     editor.set_helper(Some(Names { names }));
-    say(common.lang.pick(
-        "Спрашивайте или приказывайте; Tab дополняет имена, пустая строка – конец.",
-        "Ask or command; Tab completes names, an empty line ends.",
-    ))?;
+    say(&told!(common.lang.language(), "talk-begins"))?;
     let mut interrupted = false;
     loop {
         let read = editor.readline("> ");
         // Once drops the line that was begun, twice ends.
         if matches!(read, Err(ReadlineError::Interrupted)) && !interrupted {
             interrupted = true;
-            say(common
-                .lang
-                .pick("Ещё раз Ctrl-C или Ctrl-D – конец.", "Ctrl-C again or Ctrl-D ends."))?;
+            say(&told!(common.lang.language(), "ctrl-c-again"))?;
             continue;
         }
         interrupted = false;
@@ -87,10 +82,7 @@ fn on_terminal(common: &Common, talk: &mut Talk) -> Result<Answer, Failure> {
             Err(ReadlineError::Eof | ReadlineError::Interrupted) => break,
             // What was typed is no UTF-8: another line may be.
             Err(ReadlineError::Io(e)) if e.kind() == std::io::ErrorKind::InvalidData => {
-                say(common.lang.pick(
-                    "Эта строка записана не в UTF-8, прочесть её нельзя.",
-                    "This line is no UTF-8 and cannot be read.",
-                ))?;
+                say(&told!(common.lang.language(), "line-is-no-text"))?;
             }
             Err(e) => return Err(terminal(&e)),
         }

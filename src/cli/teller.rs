@@ -12,7 +12,7 @@ use crate::engine::{
 };
 use crate::language::question::{Aside, aside};
 use crate::robot::Answer;
-use crate::units::write_file;
+use crate::units::{told, write_file};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -105,9 +105,8 @@ impl Teller {
     /// What whoever sits at the terminal says to a way that is barred: a line that means yes, or any other.
     fn asked(&self) -> Answer {
         if !self.json {
-            let question =
-                self.lang.pick("     Путь свободен? (да/нет)", "     Is the way clear? (yes/no)");
-            drop(say(question));
+            let question = told!(self.lang.language(), "is-the-way-clear");
+            drop(say(&question));
         }
         let mut line = Vec::new();
         let read = std::io::stdin().lock().read_until(b'\n', &mut line);
@@ -134,10 +133,8 @@ impl Teller {
             Event::Ordered(_) | Event::Progress { .. } if self.json => Ok(()),
             Event::Ordered(order) => {
                 self.bar = bar();
-                match (self.is_task, self.lang) {
-                    (false, _) => {}
-                    (true, Lang::Ru) => put(&format!("Задание: «{order}»"))?,
-                    (true, Lang::En) => put(&format!("Task: \"{order}\""))?,
+                if self.is_task {
+                    put(&told!(self.lang.language(), "task-quoted", order))?;
                 }
                 // A plan may be long in coming.
                 waiting::begin(self.lang.language());

@@ -3,16 +3,16 @@
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
-pub(super) use crate::engine::{counted_in_english as english_size, plan_in_words as plan};
+pub(super) use crate::engine::plan_in_words as plan;
 
 use crate::engine::{Relations, Replanned, RouteAnswer, World, decimal, no_way_in_words};
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
+use crate::language::Language;
 use crate::language::names::english_name;
-use crate::language::{Language, english};
 use crate::map::Entity;
 use crate::strips::{Broken, Replayed, RuleFault, RuleFaults, Wording};
-use crate::units::{English, capitalized};
+use crate::units::{English, capitalized, told, word};
 
 use super::args::{Common, Lang};
 
@@ -35,13 +35,15 @@ impl Lang {
 /// How often each relation holds.
 pub(super) fn counts(relations: &Relations, lang: Lang) -> String {
     let mut table = table();
+    let language = lang.language();
+    let [relation, count] = [word!("relation"), word!("count")].map(|word| word.say(language));
     let counts = match lang {
         Lang::Ru => {
-            table.set_header(["Отношение", "English name", "Число"]);
+            table.set_header([relation, word!("relation-in-english").say(language), count]);
             2
         }
         Lang::En => {
-            table.set_header(["Relation", "Count"]);
+            table.set_header([relation, count]);
             1
         }
     };
@@ -81,14 +83,12 @@ pub(super) fn replanned(replanned: &Replanned, wording: &Wording<'_>) -> String 
     let withdrawn = told.join(wording.language.pick(", ", "; "));
     let before = match (&replanned.before.outcome, replanned.rested_on()) {
         (Outcome::Plan(_), true) => {
-            wording.language.pick("прежний план на этом держался", "the plan before rested on this")
+            told!(wording.language, "plan-rested-on-it")
         }
-        (Outcome::Plan(_), false) => wording
-            .language
-            .pick("прежний план на этом не держался", "the plan before did not rest on this"),
-        _ => wording.language.pick("плана не было и прежде", "there was no plan before either"),
+        (Outcome::Plan(_), false) => told!(wording.language, "plan-did-not-rest"),
+        _ => told!(wording.language, "no-plan-before"),
     };
-    let head = wording.language.pick("Отозвано", "Withdrawn");
+    let head = told!(wording.language, "withdrawn");
     format!("{head}: {withdrawn} – {before}.\n{}", plan(&replanned.after, wording))
 }
 
@@ -103,24 +103,14 @@ pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
     }
     let actions: usize = replayed.steps.iter().map(|(_, directives)| directives.len()).sum();
     let (steps, cost) = (replayed.steps.len(), replayed.cost_shown());
-    let verdict = match (&replayed.broken, lang) {
-        (None, Lang::Ru) => {
-            format!("План верен: шагов {steps}, действий {actions}, стоимость {cost}.")
+    let language = lang.language();
+    let verdict = match &replayed.broken {
+        None => told!(language, "plan-works", steps, actions, cost),
+        Some(Broken { step: Some(step), faults }) => {
+            told!(language, "plan-breaks", step, reasons = reasons(faults, lang))
         }
-        (None, Lang::En) => {
-            format!("The plan works: {}, cost {cost}.", english_size(steps, actions))
-        }
-        (Some(Broken { step: Some(step), faults }), Lang::Ru) => {
-            format!("План обрывается на шаге {step}:{}", reasons(faults, lang))
-        }
-        (Some(Broken { step: Some(step), faults }), Lang::En) => {
-            format!("The plan breaks at step {step}:{}", reasons(faults, lang))
-        }
-        (Some(Broken { step: None, faults }), Lang::Ru) => {
-            format!("План выполним, но цели не достигает:{}", reasons(faults, lang))
-        }
-        (Some(Broken { step: None, faults }), Lang::En) => {
-            format!("The plan can be carried out, but misses its goal:{}", reasons(faults, lang))
+        Some(Broken { step: None, faults }) => {
+            told!(language, "plan-misses", reasons = reasons(faults, lang))
         }
     };
     text + &verdict
@@ -146,10 +136,8 @@ pub(super) fn route(
         Ok(route) => route,
         Err(why) => {
             let why = no_way_in_words(world, why, lang.language()) + ".";
-            return match lang {
-                Lang::Ru => format!("Пути нет: {why}"),
-                Lang::En => capitalized(&why),
-            };
+            let told = told!(lang.language(), "no-way", why);
+            return capitalized(&told);
         }
     };
     let name = |entity: Entity| match lang {
@@ -166,27 +154,13 @@ pub(super) fn route(
         }
     }
     let meters = route.length / 100.0;
-    let mut text = match lang {
-        Lang::Ru => {
-            format!(
-                "{} → {}: {}\n{stages}",
-                answer.from,
-                answer.to,
-                decimal(meters, "м", lang.language())
-            )
-        }
-        Lang::En => {
-            format!(
-                "{} → {}: {}\n{stages}",
-                answer.from,
-                answer.to,
-                decimal(meters, "m", lang.language())
-            )
-        }
-    };
+    let length = decimal(meters, "", lang.language());
+    let (from, to) = (&answer.from, &answer.to);
+    let head = told!(lang.language(), "way-length", from, to, length = length.trim_end());
+    let mut text = format!("{head}\n{stages}");
     let frames: Vec<String> = answer.chain.iter().map(|(_, id)| id.to_string()).collect();
-    text.push_str(&format!("\n{} {}", lang.pick("Пассфреймы:", "Passframes:"), frames.join(" → ")));
-    let points_in = lang.pick("Точки", "Points");
+    text.push_str(&format!("\n{} {}", told!(lang.language(), "passframes"), frames.join(" → ")));
+    let points_in = told!(lang.language(), "points");
     let points: Vec<String> = route.points.iter().map(|p| lengths.point(p.x, p.y, 1)).collect();
     text.push_str(&format!(
         "\n{points_in}, {}: {}",
@@ -194,22 +168,20 @@ pub(super) fn route(
         points.join(" → ")
     ));
     for (moved, what) in [
-        (&route.moved_start, lang.pick("Начало занято", "The start")),
-        (&route.moved_goal, lang.pick("Цель занята", "The goal")),
+        (&route.moved_start, told!(lang.language(), "the-start")),
+        (&route.moved_goal, told!(lang.language(), "the-goal")),
     ] {
         if let Some(moved) = moved {
             let to = lengths.point(moved.to.x, moved.to.y, 1);
-            text.push_str(&match lang {
-                Lang::Ru => {
-                    format!("\n{what}: робот там не помещается; взято ближайшее место {to}.")
-                }
-                Lang::En => format!(
-                    "\n{what} is taken: the robot does not fit there; the nearest place is {to}."
-                ),
-            });
+            text.push_str(&told!(lang.language(), "end-is-taken", what, to));
         }
     }
     text
+}
+
+/// A name in the language of the answer, where it has one.
+pub(super) fn spoken<'n>(name: &'n str, name_en: &'n str, lang: Lang) -> &'n str {
+    if lang == Lang::En && !name_en.is_empty() { name_en } else { name }
 }
 
 /// «Дом РБ-2»: карт 1, помещений 4 …
@@ -218,24 +190,17 @@ pub(super) fn described(world: &World, lang: Lang) -> String {
     let [replicas, objects] = [world.replicas.len(), world.objects.len()];
     let [orthoframes, places] = [world.orthoframes.len(), world.places.len()];
     let domain = &world.domain;
-    match lang {
-        Lang::Ru => format!(
-            "«{}»: карт {maps}, помещений {areas}, дверей и проходов {doors}, экземпляров {replicas} (объектов {objects}, ортофреймов {orthoframes}), точек {places}.",
-            domain.name
-        ),
-        Lang::En => {
-            let count = |number: usize, noun| english::count(number as u64, noun);
-            format!(
-                "“{}”: {}, {}, {} (passages among them), {} ({}, {}), {}.",
-                if domain.name_en.is_empty() { &domain.name } else { &domain.name_en },
-                count(maps, "map"),
-                count(areas, "room"),
-                count(doors, "door"),
-                count(replicas, "thing"),
-                count(objects, "object"),
-                count(orthoframes, "Orthoframe"),
-                count(places, "place"),
-            )
-        }
-    }
+    let name = spoken(&domain.name, &domain.name_en, lang);
+    told!(
+        lang.language(),
+        "described",
+        name,
+        maps,
+        rooms = areas,
+        doors,
+        things = replicas,
+        objects,
+        orthoframes,
+        places
+    )
 }

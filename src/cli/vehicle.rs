@@ -12,7 +12,7 @@ use crate::robot::{
     Address, Moment, Patience, RemoteVehicle, Senses, SensingRobot, Served, Simulator, Vehicle,
     serve, starting_pose,
 };
-use crate::units::Language;
+use crate::units::{Language, told};
 
 use super::Answer;
 use super::args::Common;
@@ -159,7 +159,7 @@ pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, F
     let fault = |error: &std::io::Error| Failure::file(address.as_ref(), error);
     let listener = TcpListener::bind(address).map_err(|error| fault(&error))?;
     let bound = listener.local_addr().map_err(|error| fault(&error))?;
-    note(&format!("{} {bound}", common.lang.pick("Робот ждёт:", "The robot waits at")));
+    note(&format!("{} {bound}", told!(common.lang.language(), "the-robot-waits-at")));
     for stream in listener.incoming() {
         // A mission that went away before it was met is none.
         let Ok(stream) = stream else { continue };
@@ -177,7 +177,7 @@ fn tell(common: &Common, served: &Served) -> Answer {
     match served {
         Served::Left => Answer::Yes,
         Served::Rubbish(why) => {
-            let told = common.lang.pick("Приказ не понят", "An order was not understood");
+            let told = told!(common.lang.language(), "order-not-understood");
             note(&format!("{told}: {why}"));
             Answer::Wrong
         }

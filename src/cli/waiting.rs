@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::units::Language;
+use crate::units::{Language, told};
 
 /// What is done within this time needs no sign.
 const PATIENCE: Duration = Duration::from_millis(700);
@@ -23,9 +23,9 @@ pub(super) fn begin(language: Language) {
         return;
     }
     let sign = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-    let text = language.pick("{spinner} работаю, {elapsed}", "{spinner} working, {elapsed}");
+    let text = told!(language, "working", spinner = "{spinner}", elapsed = "{elapsed}");
     sign.set_style(
-        ProgressStyle::with_template(text).expect("the template is a constant and sound"),
+        ProgressStyle::with_template(&text).expect("the template is a constant and sound"),
     );
     *SIGN.lock().unwrap_or_else(PoisonError::into_inner) = Some(sign);
     std::thread::spawn(|| {

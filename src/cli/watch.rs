@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use crate::engine::{Drawing, Engine};
-use crate::units::InOrder as _;
+use crate::units::{InOrder as _, told};
 
 use super::args::Common;
 use super::fault::Failure;
@@ -93,7 +93,7 @@ fn look(
         return Ok(json::drawn_map(&warnings, drawing).to_string());
     }
     if first.len() > 1 {
-        note(common.lang.pick("Нарисован первый этаж.", "The first storey is drawn."));
+        note(&told!(common.lang.language(), "first-storey-drawn"));
     }
     Ok(format!("{described} → {path}"))
 }

@@ -7,6 +7,7 @@ use super::opened::open;
 use super::{Answer, say};
 use crate::engine::{Engine, Relations, RequestError};
 use crate::facts::{Value, WhyNot};
+use crate::units::{Language, told, word};
 
 /// Runs the command. A fact that is asked about the wrong way round – why, though it does not hold – is answered with
 /// "no" and with what can be said.
@@ -24,7 +25,7 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
     let nearest = match because {
         Ok(proof) => {
             if not {
-                say(common.lang.pick("Это так:", "It does hold:"))?;
+                say(&told!(common.lang.language(), "it-does-hold"))?;
             }
             say(names.translate(&proof.to_string()).trim_end())?;
             return Ok(if not { Answer::No } else { Answer::Yes });
@@ -37,16 +38,11 @@ pub(super) fn run(common: &Common, fact: &str, not: bool) -> Result<Answer, Fail
     let head = format!("{shown}({})", of.join(", "));
     match nearest {
         WhyNot::Nearest(rule) => {
-            let text = common
-                .lang
-                .pick("не выполняется; ближе всего правило", "does not hold; the nearest rule");
+            let text = told!(common.lang.language(), "does-not-hold");
             say(names.translate(&format!("{head}: {text} {rule}")).trim_end())?;
         }
         WhyNot::NotTold | WhyNot::Holds => {
-            let text = common.lang.pick(
-                "не измерено, и правил для этого отношения нет",
-                "was not measured, and no rule derives this relation",
-            );
+            let text = told!(common.lang.language(), "not-measured");
             say(&format!("{head}: {text}"))?;
         }
     }
@@ -129,7 +125,8 @@ impl<'a> Names<'a> {
             rest = after;
         }
         shown.push_str(rest);
-        shown.replace("(см. выше)", "(see above)")
+        let above = word!("see-above");
+        shown.replace(&*above.say(Language::Russian), &above.say(Language::English))
     }
 }
 

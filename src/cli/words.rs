@@ -4,6 +4,7 @@ use crate::engine::forms::{english_forms, numbers, prepositions};
 use crate::engine::{Engine, RequestError, json};
 use crate::language::report::Named;
 use crate::language::{Animacy, Case, Evidence, NounPhrase, Number, russian};
+use crate::units::{Piece, said, told, word};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -13,13 +14,7 @@ use super::{Answer, say};
 /// A store is not needed; where there is one with a map, its forms of the name come first.
 pub(super) fn run(common: &Common, name: &str) -> Result<Answer, Failure> {
     if !name.contains(char::is_alphanumeric) {
-        let help = Some(
-            (
-                "нужно имя или слово: ortho words \"Письменный стол\"",
-                "a name or a word is needed: ortho words \"Desk\"",
-            )
-                .into(),
-        );
+        let help = Some(said!("name-wanted"));
         let name = name.chars().take(40).collect();
         return Err(RequestError::UnknownName { name, help }.into());
     }
@@ -63,39 +58,33 @@ fn table(named: &Named, lang: Lang) -> String {
     let (one, many) = english_forms(named);
     lines.push(format!("  English: {one}, {many}"));
     for (word, evidence) in phrase.sources() {
-        let from = source(evidence);
-        lines.push(format!("  {word}: {}", lang.pick(from.0, from.1)));
+        lines.push(format!("  {word}: {}", source(evidence).say(lang.language())));
     }
     if !phrase.is_certain() {
-        lines.push(format!("  {}", lang.pick(
-            "Формы не наверное верны; карта может задать их: forms = { gen = \"…\", dat = \"…\", acc = \"…\", ins = \"…\", loc = \"…\" }",
-            "The forms are uncertain; the map can give them: forms = { gen = \"…\", dat = \"…\", acc = \"…\", ins = \"…\", loc = \"…\" }",
-        )));
+        let example = r#"{ gen = "…", dat = "…", acc = "…", ins = "…", loc = "…" }"#;
+        lines.push(format!("  {}", told!(lang.language(), "forms-uncertain", example)));
     }
     lines.join("\n")
 }
 
 fn nature(phrase: &NounPhrase, lang: Lang) -> String {
     let (gender, number) = (phrase.gender().names(), phrase.number().names());
-    let mut nature = match (phrase.number(), lang) {
-        (Number::Plural, Lang::Ru) => format!("{} число", number.0),
-        (Number::Plural, Lang::En) => number.1.to_owned(),
-        (Number::Singular, Lang::Ru) => format!("{} род", gender.0),
-        (Number::Singular, Lang::En) => gender.1.to_owned(),
+    let mut nature = match phrase.number() {
+        Number::Plural => told!(lang.language(), "plural", number),
+        Number::Singular => told!(lang.language(), "gender", gender),
     };
     if phrase.animacy() == Animacy::Animate {
-        nature.push_str(lang.pick(", одушевлённое", ", animate"));
+        nature.push_str(&told!(lang.language(), "animate"));
     }
     nature
 }
 
-/// Its word in Russian and English.
-fn source(evidence: Evidence) -> (&'static str, &'static str) {
+fn source(evidence: Evidence) -> Piece {
     match evidence {
-        Evidence::Given => ("по карте", "from the map"),
-        Evidence::Lexicon => ("по списку слов", "from the word list"),
-        Evidence::Dictionary => ("по словарю", "from the dictionary"),
-        Evidence::Rule => ("по окончанию, наверное", "by its ending, surely"),
-        Evidence::Guess => ("по окончанию, догадка", "by its ending, a guess"),
+        Evidence::Given => word!("from-the-map"),
+        Evidence::Lexicon => word!("from-the-word-list"),
+        Evidence::Dictionary => word!("from-the-dictionary"),
+        Evidence::Rule => word!("by-its-ending-surely"),
+        Evidence::Guess => word!("by-its-ending-a-guess"),
     }
 }

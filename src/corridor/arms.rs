@@ -247,9 +247,9 @@ impl Assignment<'_> {
         }
     }
 
-    fn list(&self, ends: &[End]) -> String {
+    fn list(&self, ends: &[End]) -> Bilingual {
         let numbers: Vec<_> = ends.iter().map(|e| (self.neighbour)(e).to_string()).collect();
-        if numbers.is_empty() { "нет".to_owned() } else { numbers.join(", ") }
+        if numbers.is_empty() { said!("no-numbers") } else { numbers.join(", ").into() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Directions from where the robot stands to the entrance of a room.
 
-use crate::units::{Language, nearest_name, said};
+use crate::units::{Language, nearest_name, said, told};
 
 use super::CorridorError;
 use super::command::Command;
@@ -124,8 +124,8 @@ fn answer(
         Some(way) => (way.commands, way.labels, in_people_units(way.cost)),
         None => (Vec::new(), vec![number(goal).to_string()], 0.0),
     };
-    let sentences = |language, here: &str| match Command::sentences(&commands, language) {
-        none if none.is_empty() => vec![here.to_owned()],
+    let sentences = |language| match Command::sentences(&commands, language) {
+        none if none.is_empty() => vec![told!(language, "at-the-goal")],
         some => some,
     };
     let in_words = |&command: &Command| Step {
@@ -143,8 +143,8 @@ fn answer(
         path,
         cost,
         steps: commands.iter().map(in_words).collect(),
-        ru: sentences(Language::Russian, "Робот уже у цели."),
-        en: sentences(Language::English, "The robot is at its goal already."),
+        ru: sentences(Language::Russian),
+        en: sentences(Language::English),
         arrived_by: arrived_by.map(pair),
     }
 }

@@ -90,7 +90,7 @@ pub enum CorridorFault {
     NoSuchNeighbour {
         vertex: u32,
         neighbour: i64,
-        neighbours: String,
+        neighbours: Bilingual,
         at: SourceSpan,
     },
 
@@ -99,13 +99,13 @@ pub enum CorridorFault {
         kind: &'static str,
         wanted: usize,
         found: usize,
-        neighbours: String,
+        neighbours: Bilingual,
         at: SourceSpan,
     },
 
     AmbiguousArms {
         vertex: u32,
-        neighbours: String,
+        neighbours: Bilingual,
         at: SourceSpan,
     },
 

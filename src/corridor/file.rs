@@ -26,7 +26,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::units::{
-    Bilingual, Cm, Gather as _, InOrder as _, Language, Source, nearest_name, said, word,
+    Bilingual, Cm, Gather as _, InOrder as _, Language, Source, nearest_name, said, told, word,
 };
 
 use super::arms::{self, Declared};
@@ -459,8 +459,7 @@ impl Reader {
             let expected = Bilingual::both(|language| {
                 let said = |word: &&&str| language == Language::Russian || word.is_ascii();
                 let all: Vec<&str> = all.iter().filter(said).copied().collect();
-                let of_these = language.pick("одно из слов", "one of the words");
-                format!("{of_these}: {}", all.join(", "))
+                told!(language, "one-of-the-words", words = all.join(", "))
             });
             self.wrong(field, expected, value);
         }

@@ -1,7 +1,7 @@
 //! What stands under a plan: the scale bar, what colours mean, the directives and things by number.
 
 use crate::geometry::{Bounds, Polygon};
-use crate::units::{Language, Point, Vector};
+use crate::units::{Language, Point, Vector, told};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
@@ -233,10 +233,10 @@ pub(super) fn scale_bar(canvas: &mut Canvas, at: Point, pen: f64, language: Lang
     }
     for i in 0..3 {
         let reach = length * f64::from(i);
-        let unit = if i > 0 { language.pick(" м", " m") } else { "" };
         let number = reach.to_string();
         let number = language.pick(number.replace('.', ","), number);
+        let told = if i > 0 { told!(language, "metres", number) } else { number };
         let below = at + Vector::new(reach * 100.0, -12.0 * pen);
-        canvas.text(below, &format!("{number}{unit}"), small);
+        canvas.text(below, &told, small);
     }
 }

@@ -18,8 +18,11 @@ use orthoframe_geometry as geometry;
 use orthoframe_map as map;
 use orthoframe_units as units;
 
+orthoframe_units::messages!("../../rules/messages", "draw", PngError);
+
 mod canvas;
 mod corridor;
+mod error;
 mod font;
 mod furniture;
 mod labels;
@@ -41,10 +44,11 @@ mod zones;
 pub use corridor::{
     CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
 };
+pub use error::PngError;
 pub use font::text_width;
 pub use object::object_svg;
 #[cfg(feature = "pictures")]
-pub use picture::{PngError, png};
+pub use picture::png;
 pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
 pub use seen::{SeenDrawing, SeenSegment, SeenSign, seen_svg};
 pub use sight::{SightDrawing, SightLine, SightSign, beside, sight_svg};

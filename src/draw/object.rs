@@ -10,7 +10,7 @@
 
 use crate::geometry::{Bounds, Polygon, nearest_on_segment};
 use crate::map::{Object, Permeability, World};
-use crate::units::{InOrder as _, Language, Point, Vector};
+use crate::units::{InOrder as _, Language, Piece, Point, Vector, word};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
@@ -116,11 +116,11 @@ impl View {
         Silhouette { body, outline, inner, near, far, face }
     }
 
-    fn title(self, language: Language) -> &'static str {
+    fn title(self) -> Piece {
         match self {
-            Self::Facade => language.pick("Фасад", "Façade"),
-            Self::Profile => language.pick("Профиль", "Profile"),
-            Self::Plan => language.pick("План", "Plan"),
+            Self::Facade => word!("facade"),
+            Self::Profile => word!("profile"),
+            Self::Plan => word!("plan"),
         }
     }
 }
@@ -175,14 +175,18 @@ pub fn object_svg(world: &World, object: &Object, language: Language) -> String 
     let start = |style: Lettering| Lettering { anchor: Anchor::Start, halo: false, ..style };
     canvas.mark("heading");
     canvas.text(left, title, start(Lettering::bold(heading, INK)));
-    let note = language.pick("Размеры в сантиметрах", "Dimensions in centimetres");
-    canvas.text(left - Vector::new(0.0, 24.0 * pen), note, start(Lettering::plain(letter, HIDDEN)));
+    let note = word!("dimensions-in-centimetres").say(language);
+    canvas.text(
+        left - Vector::new(0.0, 24.0 * pen),
+        &note,
+        start(Lettering::plain(letter, HIDDEN)),
+    );
     for ((view, mut silhouettes), offset) in views.into_iter().zip(shown).zip(offsets) {
         let extent = extents[view as usize];
         draw_view(&mut canvas, view, &mut silhouettes, offset, pen);
         canvas.mark("caption");
         let above = Point::new(extent.min.x, extent.max.y) + offset + Vector::new(0.0, 16.0 * pen);
-        canvas.text(above, view.title(language), start(Lettering::plain(letter, HIDDEN)));
+        canvas.text(above, &view.title().say(language), start(Lettering::plain(letter, HIDDEN)));
     }
     let mut levels: Vec<f64> = bodies.iter().flat_map(|b| [b.bottom, b.top]).collect();
     distinct(&mut levels, 15.0 * pen);

@@ -1,45 +1,10 @@
 //! A drawing as a PNG picture.
 
-use miette::Diagnostic;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
-use thiserror::Error;
 
+use super::PngError;
 use super::letters;
-use crate::units::InEnglish;
-
-/// A drawing that cannot become a picture.
-#[derive(Debug, Error, Diagnostic)]
-#[non_exhaustive]
-pub enum PngError {
-    /// The text is no SVG.
-    #[error("рисунок не читается как SVG: {message}")]
-    #[diagnostic(code(draw::svg), help("передайте SVG, который построила эта программа"))]
-    Svg { message: String },
-    /// More pixels than memory should hold.
-    #[error("картинка {width}×{height} точек не помещается в память")]
-    #[diagnostic(code(draw::size), help("уменьшите ширину: --width 2000"))]
-    Size { width: u32, height: u32 },
-}
-
-impl InEnglish for PngError {
-    fn english(&self) -> String {
-        match self {
-            Self::Svg { message } => format!("the drawing cannot be read as SVG: {message}"),
-            Self::Size { width, height } => {
-                format!("a picture of {width}×{height} points does not fit into memory")
-            }
-        }
-    }
-
-    fn english_help(&self) -> Option<String> {
-        let help = match self {
-            Self::Svg { .. } => "give an SVG that this program made",
-            Self::Size { .. } => "take a smaller width: --width 2000",
-        };
-        Some(help.to_owned())
-    }
-}
 
 /// More than a wall poster needs.
 const MOST_PIXELS: u64 = 100_000_000;

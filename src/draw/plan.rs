@@ -8,7 +8,8 @@ use crate::geometry::{
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{
-    AreaId, DoorId, Gather as _, InOrder as _, Language, PlaceId, Point, Pose, ReplicaId, Vector,
+    AreaId, DoorId, Gather as _, InOrder as _, Language, Piece, PlaceId, Point, Pose, ReplicaId,
+    Vector, told, word,
 };
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
@@ -521,54 +522,51 @@ impl PlanDrawing<'_> {
     /// «23,5 м²»
     fn square_metres(&self, square_cm: f64) -> String {
         let metres = format!("{:.1}", square_cm / 1e4);
-        self.language.pick(format!("{} м²", metres.replace('.', ",")), format!("{metres} m²"))
+        let number = self.language.pick(metres.replace('.', ","), metres);
+        told!(self.language, "square-metres", number)
     }
 
     fn legend(&self, rooms: Bounds, above: Bounds, pen: f64) -> Legend {
         let mut entries = Vec::new();
-        let mut entry = |is_shown: bool, sample: Sample, class: &'static str, words: [&str; 2]| {
+        let mut entry = |is_shown: bool, sample: Sample, class: &'static str, words: Piece| {
             if is_shown {
-                let text = self.language.pick(words[0], words[1]).to_owned();
+                let text = words.say(self.language).into_owned();
                 entries.push(Entry::Sign(sample, class, text));
             }
         };
         let dot = |style| Sample::Dot(style);
         let (network, route) = (&self.network, &self.route);
-        entry(!self.places.is_empty(), dot(Style::fill(PLACE)), "key place", ["место", "place"]);
-        let vertex = ["вершина сети Пассфреймов", "vertex of the Passframe network"];
-        entry(!network.vertices.is_empty(), dot(VERTEX), "key vertex", vertex);
-        let edge = ["переход между Пассфреймами", "crossing between Passframes"];
-        entry(!network.edges.is_empty(), Sample::Stroke(NETWORK), "key network", edge);
-        let through = ["переход через проём", "crossing through a doorway"];
+        entry(!self.places.is_empty(), dot(Style::fill(PLACE)), "key place", word!("place"));
+        entry(!network.vertices.is_empty(), dot(VERTEX), "key vertex", word!("vertex"));
+        entry(!network.edges.is_empty(), Sample::Stroke(NETWORK), "key network", word!("edge"));
         let has_doors = !network.doors.is_empty();
-        entry(has_doors, Sample::Stroke(THROUGH), "key doorway-edge", through);
+        entry(has_doors, Sample::Stroke(THROUGH), "key doorway-edge", word!("doorway-edge"));
         let diamond = Sample::Diamond(Style::fill(DOORWAY));
-        entry(has_doors, diamond, "key doorway", ["проём", "doorway"]);
+        entry(has_doors, diamond, "key doorway", word!("doorway"));
         let has_robot = route.start.is_some() || self.view.eye.is_some();
-        entry(has_robot, dot(ROBOT), "key robot", ["робот", "robot"]);
+        entry(has_robot, dot(ROBOT), "key robot", word!("robot"));
         let has_way = route.legs.iter().any(|(_, leg)| leg.len() > 1);
-        entry(has_way, Sample::Arrow(ROUTE), "key route", ["маршрут", "route"]);
+        entry(has_way, Sample::Arrow(ROUTE), "key route", word!("route"));
         let has_start = !route.legs.is_empty() && route.start.is_none();
-        entry(has_start, dot(START), "key start", ["начало", "start"]);
-        entry(self.goal().is_some(), Sample::Goal, "key goal", ["цель", "goal"]);
+        entry(has_start, dot(START), "key start", word!("start"));
+        entry(self.goal().is_some(), Sample::Goal, "key goal", word!("goal"));
         let has_badges = !route.directives.is_empty() && !route.legs.is_empty();
-        entry(has_badges, dot(BADGE), "key badge", ["номер директивы", "number of a directive"]);
+        entry(has_badges, dot(BADGE), "key badge", word!("badge"));
         for kind in furniture::Looseness::ALL {
             let (style, class) = kind.key();
             let words = match kind {
-                furniture::Looseness::Fixed => ["мебель", "furniture"],
-                furniture::Looseness::Movable => ["подвижное", "movable"],
-                furniture::Looseness::Portable => ["переносное", "portable"],
-                furniture::Looseness::Overhead => ["под потолком", "overhead"],
+                furniture::Looseness::Fixed => word!("fixed"),
+                furniture::Looseness::Movable => word!("movable"),
+                furniture::Looseness::Portable => word!("portable"),
+                furniture::Looseness::Overhead => word!("overhead"),
             };
             let is_shown = self.things().any(|r| furniture::Looseness::of(self.world, r) == kind);
             entry(is_shown, Sample::Fill(style), class, words);
         }
         let has_cells = !self.floor.passframes.is_empty();
-        entry(has_cells, Sample::Fill(PASSFRAME), "key passframe", ["Пассфреймы", "Passframes"]);
+        entry(has_cells, Sample::Fill(PASSFRAME), "key passframe", word!("passframe"));
         let has_dead = !self.floor.dead_zones.is_empty();
-        let dead = ["мёртвые зоны", "dead zones"];
-        entry(has_dead, Sample::Fill(DEAD_ZONE), "key dead-zone", dead);
+        entry(has_dead, Sample::Fill(DEAD_ZONE), "key dead-zone", word!("dead-zone"));
         let mut told = Vec::new();
         for zone in &self.zones {
             let (style, _, class, words) = zones::look(zone.kind);
@@ -579,9 +577,9 @@ impl PlanDrawing<'_> {
         }
         let has_eye = self.view.eye.is_some();
         let has_fan = has_eye && self.view.fan.len() >= 2;
-        entry(has_fan, Sample::Fill(SIGHT), "key sight", ["обозреваемый пол", "floor in view"]);
+        entry(has_fan, Sample::Fill(SIGHT), "key sight", word!("sight"));
         let has_seen = has_eye && !self.view.seen.is_empty();
-        entry(has_seen, Sample::Stroke(SEEN), "key seen", ["видимые грани", "faces in view"]);
+        entry(has_seen, Sample::Stroke(SEEN), "key seen", word!("seen"));
         let marks = rooms::marks(self.world, self.areas());
         for (class, sample, words) in marks {
             entry(true, sample, class, words);
@@ -589,14 +587,14 @@ impl PlanDrawing<'_> {
         let is_shown = |d: &&DoorGlyph| rooms.meets(&d.leaf.bounds());
         let doors = || self.doors.iter().filter(is_shown);
         let status = |locked: bool| doors().any(|d| (d.status == DoorStatus::Locked) == locked);
-        entry(status(false), Sample::Fill(LEAF), "key door", ["дверь", "door"]);
+        entry(status(false), Sample::Fill(LEAF), "key door", word!("door"));
         entry(
             doors().any(|d| !d.arc.is_empty()),
             Sample::Stroke(SWING),
             "key swing",
-            ["ход створки", "way of a leaf"],
+            word!("swing"),
         );
-        entry(status(true), Sample::Fill(LOCKED), "key door locked", ["заперто", "locked"]);
+        entry(status(true), Sample::Fill(LOCKED), "key door locked", word!("locked"));
         for (number, directive) in &self.route.directives {
             entries.push(Entry::Line(format!("{number}. {directive}")));
         }

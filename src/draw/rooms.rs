@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::geometry::{PlacedArea, Polygon};
 use crate::map::{Permeability, World};
-use crate::units::{Point, Vector};
+use crate::units::{Piece, Point, Vector, word};
 
 use super::canvas::{Canvas, Style};
 use super::legend::Sample;
@@ -42,7 +42,7 @@ pub(super) fn floor(canvas: &mut Canvas, world: &World, area: &PlacedArea, pen: 
 pub(super) fn marks<'a>(
     world: &World,
     areas: impl Iterator<Item = &'a PlacedArea>,
-) -> Vec<(&'static str, Sample, [&'static str; 2])> {
+) -> Vec<(&'static str, Sample, Piece)> {
     let [mut wall, mut window, mut passage, mut lift, mut stairs] = [false; 5];
     for area in areas {
         let kind = world.types.area.get(world.areas[&area.id].area_type);
@@ -62,11 +62,11 @@ pub(super) fn marks<'a>(
         }
     }
     let all = [
-        (wall, "key wall", Sample::Stroke(WALL), ["стена", "wall"]),
-        (window, "key window", Sample::Stroke(PANE), ["окно", "window"]),
-        (passage, "key passage", Sample::Stroke(PASSAGE), ["проём, проход", "opening"]),
-        (stairs, "key stairs", Sample::Stroke(STAIRS), ["ступени", "stairs"]),
-        (lift, "key lift", Sample::Stroke(STAIRS), ["лифт: крест", "lift: a cross"]),
+        (wall, "key wall", Sample::Stroke(WALL), word!("wall")),
+        (window, "key window", Sample::Stroke(PANE), word!("window")),
+        (passage, "key passage", Sample::Stroke(PASSAGE), word!("passage")),
+        (stairs, "key stairs", Sample::Stroke(STAIRS), word!("stairs")),
+        (lift, "key lift", Sample::Stroke(STAIRS), word!("lift")),
     ];
     all.into_iter()
         .filter(|m| m.0)

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Polygon, nearest_on_segment};
 use crate::map::ZoneKind;
-use crate::units::{Point, Vector};
+use crate::units::{Piece, Point, Vector, word};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 
@@ -24,14 +24,12 @@ const SLOW: Style = Style::fill("#e6c700").faint(0.28);
 const ONE_WAY: Style = Style::fill("#3b82c4").faint(0.22);
 
 /// How a kind of zones is drawn, its class and its name in the legend.
-pub(super) fn look(kind: ZoneKind) -> (Style, &'static str, &'static str, [&'static str; 2]) {
+pub(super) fn look(kind: ZoneKind) -> (Style, &'static str, &'static str, Piece) {
     match kind {
-        ZoneKind::KeepOut => (KEEP_OUT, "#a11d1a", "keep-out", ["запретная зона", "keep-out zone"]),
-        ZoneKind::Closed => (CLOSED, "#a8550a", "closed", ["закрытая зона", "closed zone"]),
-        ZoneKind::Slow { .. } => (SLOW, "#8a7800", "slow", ["медленная зона", "slow zone"]),
-        ZoneKind::OneWay { .. } => {
-            (ONE_WAY, "#1d5b96", "one-way", ["односторонняя зона", "one-way zone"])
-        }
+        ZoneKind::KeepOut => (KEEP_OUT, "#a11d1a", "keep-out", word!("keep-out")),
+        ZoneKind::Closed => (CLOSED, "#a8550a", "closed", word!("closed")),
+        ZoneKind::Slow { .. } => (SLOW, "#8a7800", "slow", word!("slow")),
+        ZoneKind::OneWay { .. } => (ONE_WAY, "#1d5b96", "one-way", word!("one-way")),
     }
 }
 

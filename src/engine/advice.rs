@@ -7,7 +7,7 @@ use crate::geometry::{FloorPlan, Remedy};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity, World};
 use crate::semantics::{Relations, Thresholds};
-use crate::units::{DoorId, Lengths, Point, ReplicaId, Vector};
+use crate::units::{DoorId, Lengths, Point, ReplicaId, Vector, told};
 
 use super::barriers::thing_in_words;
 use super::lexicon::named;
@@ -57,18 +57,16 @@ impl Advice {
     /// «подвиньте Стул-2 на 14 см к окну»
     #[must_use]
     pub fn in_words(&self, world: &World, language: Language) -> String {
-        let russian = language == Language::Russian;
         let of = |entity: Entity, case: Case| named(world, entity).form(case, language);
-        let pick = |ru: &str, en: &str| if russian { ru.to_owned() } else { en.to_owned() };
         let opening = |doors: &[DoorId]| {
             let verb = |door: &DoorId| match world.doors.get(door).map(|d| d.state) {
                 Some(s) if s.status == DoorStatus::Locked => {
-                    pick("отоприте и откройте", "unlock and open")
+                    told!(language, "unlock-and-open")
                 }
                 Some(s) if s.status == DoorStatus::Open && s.opening > 0.0 => {
-                    pick("откройте настежь", "open wide")
+                    told!(language, "open-wide")
                 }
-                _ => pick("откройте", "open"),
+                _ => told!(language, "open-please"),
             };
             let mut told: Vec<(String, Vec<String>)> = Vec::new();
             for door in doors {
@@ -86,24 +84,17 @@ impl Advice {
             Remedy::Move { replica, by, open } => {
                 let thing = thing_in_words(world, *replica, Case::Accusative, language);
                 let distance = Lengths::said().told(by.norm(), 0, language);
-                let push = if russian {
-                    format!("подвиньте {thing} на {distance}")
-                } else {
-                    format!("move {thing} by {distance}")
-                };
+                let push = told!(language, "move-by", thing, distance);
                 let way = self.whither.map(|w| self.way(world, w, language));
                 (open, way.map_or(push.clone(), |way| format!("{push} {way}")))
             }
             Remedy::Shut { door, of: None, open } => {
                 let door = of(Entity::Door(*door), Case::Accusative);
-                (open, format!("{} {door}", pick("закройте", "shut")))
+                (open, format!("{} {door}", told!(language, "shut-please")))
             }
             Remedy::Shut { of: Some(replica), open, .. } => {
-                let change = if russian {
-                    format!("закройте дверцы {}", of(Entity::Replica(*replica), Case::Genitive))
-                } else {
-                    format!("shut the doors of {}", of(Entity::Replica(*replica), Case::Nominative))
-                };
+                let of = of(Entity::Replica(*replica), Case::Genitive);
+                let change = told!(language, "shut-the-doors-of", of);
                 (open, change)
             }
             Remedy::Remove { replicas, open } => {
@@ -112,34 +103,29 @@ impl Advice {
                     .map(|r| thing_in_words(world, *r, Case::Accusative, language))
                     .collect();
                 let change =
-                    format!("{} {}", pick("уберите", "take away"), enumerate(&things, language));
+                    format!("{} {}", told!(language, "take-away"), enumerate(&things, language));
                 (open, change)
             }
         };
         if open.is_empty() {
             return change;
         }
-        format!("{} {} {change}", opening(open), pick("и", "and"))
+        format!("{} {} {change}", opening(open), told!(language, "and-then"))
     }
 
     fn way(&self, world: &World, whither: Whither, language: Language) -> String {
-        let russian = language == Language::Russian;
         let name = |landmark: Landmark, case: Case| match landmark {
-            Landmark::Window if !russian => "the window".to_owned(),
-            Landmark::Window if case == Case::Dative => "окну".to_owned(),
-            Landmark::Window => "окна".to_owned(),
+            Landmark::Window if case == Case::Dative => told!(language, "towards-the-window"),
+            Landmark::Window => told!(language, "from-the-window"),
             Landmark::Door(id) => named(world, Entity::Door(id)).form(case, language),
             Landmark::Thing(id) => named(world, Entity::Replica(id)).form(case, language),
         };
         match whither {
-            Whither::Towards(to) if russian => format!("к {}", name(to, Case::Dative)),
-            Whither::Towards(to) => format!("towards {}", name(to, Case::Nominative)),
-            Whither::AwayFrom(from) if russian => {
-                format!("в сторону от {}", name(from, Case::Genitive))
+            Whither::Towards(to) => told!(language, "towards", what = name(to, Case::Dative)),
+            Whither::AwayFrom(from) => {
+                told!(language, "away-from", what = name(from, Case::Genitive))
             }
-            Whither::AwayFrom(from) => format!("away from {}", name(from, Case::Nominative)),
-            Whither::Angle(degrees) if russian => format!("под углом {degrees:.0}° по карте"),
-            Whither::Angle(degrees) => format!("at {degrees:.0}° on the map"),
+            Whither::Angle(degrees) => told!(language, "at-an-angle", degrees),
         }
     }
 }

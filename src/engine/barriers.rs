@@ -6,7 +6,7 @@ use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
 use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
 use crate::map::{DoorStatus, Entity, LiftStop, World};
-use crate::units::{AreaId, DoorId, Lengths, ReplicaId};
+use crate::units::{AreaId, DoorId, Lengths, ReplicaId, told, word};
 
 use super::RouteAnswer;
 use super::lexicon::named;
@@ -24,39 +24,27 @@ impl RouteAnswer {
 pub(crate) fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> String {
     let russian = language == Language::Russian;
     match no {
-        NoRoute::Blocked { barriers, .. } if !barriers.is_empty() => {
+        NoRoute::Blocked { barriers } => {
             let told: Vec<String> = barriers.iter().map(|b| barrier(world, b, language)).collect();
             told.join("; ")
         }
-        NoRoute::Blocked { text, .. } => text.clone(),
-        NoRoute::NoFloor if russian => {
-            "у начала или цели нет места, где робот помещается".to_owned()
-        }
-        NoRoute::NoFloor => "the robot does not fit near the start or the goal".to_owned(),
+        NoRoute::NoFloor => told!(language, "no-floor-for-the-robot"),
         NoRoute::OtherMap { area } => {
             let room = named(world, Entity::Area(*area));
             let name = if russian { room.phrase().name().to_owned() } else { room.english() };
-            let (ru, en) = match storey_is_reached(world, *area) {
-                By::Lift => ("находится на другой карте", "is on another map"),
-                By::Stairs => (
-                    "находится на другом этаже, куда ведёт только лестница, а по ней роботу не проехать",
-                    "is on another storey, to which only stairs lead, and the robot cannot climb them",
-                ),
-                By::Nothing => (
-                    "находится на другой карте, куда не ведёт ни лифт, ни лестница",
-                    "is on another map, to which neither lift nor stairs lead",
-                ),
+            let how = match storey_is_reached(world, *area) {
+                By::Lift => word!("on-another-map"),
+                By::Stairs => word!("on-another-storey"),
+                By::Nothing => word!("on-another-map-unreached"),
             };
-            format!("{name} {}", language.pick(ru, en))
+            format!("{name} {}", how.say(language))
         }
-        // A reason that came later tells of itself.
-        other => other.to_string(),
     }
 }
 
 /// What was seen and is on no map.
-pub(super) fn unknown_thing(language: Language) -> &'static str {
-    language.pick("что-то, чего нет на карте", "something that is not on the map")
+pub(super) fn unknown_thing(language: Language) -> String {
+    told!(language, "something-unmapped")
 }
 
 /// A thing that stands in a way. What the robot met and nobody surveyed has no name.
@@ -68,7 +56,7 @@ pub(super) fn thing_in_words(
 ) -> String {
     match world.replicas.contains_key(&thing) {
         true => named(world, Entity::Replica(thing)).form(case, language),
-        false => unknown_thing(language).to_owned(),
+        false => unknown_thing(language),
     }
 }
 
@@ -98,10 +86,13 @@ fn storey_is_reached(world: &World, area: AreaId) -> By {
 }
 
 fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
-    let russian = language == Language::Russian;
     let of = |entity: Entity| named(world, entity);
     let form = |name: &Named, case: Case| name.form(case, language);
     let room = |id: AreaId, case| form(&of(Entity::Area(id)), case);
+    let place = |area: AreaId| match language {
+        Language::Russian => crate::language::russian::where_at(of(Entity::Area(area)).phrase()),
+        Language::English => told!(language, "in-room", room = room(area, Case::Nominative)),
+    };
     let door = |id: DoorId| of(Entity::Door(id));
     let pair = |areas: &[AreaId; 2]| {
         let names = [room(areas[0], Case::Instrumental), room(areas[1], Case::Instrumental)];
@@ -112,31 +103,22 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         Lengths::said().told((length * 10.0 + 1e-6).floor() / 10.0, 1, language)
     };
     let list = |blockers: &[Blocker]| {
-        let leaf = |entity: Entity| match russian {
-            true => format!("створка {}", form(&of(entity), Case::Genitive)),
-            false => format!("a leaf of {}", form(&of(entity), Case::Nominative)),
-        };
-        let name = |b: &Blocker| match (b, russian) {
-            (Blocker::Replica { replica, item }, _) => {
+        let leaf = |entity| told!(language, "leaf-of", of = form(&of(entity), Case::Genitive));
+        let name = |b: &Blocker| match b {
+            Blocker::Replica { replica, item } => {
                 let name = thing_in_words(world, *replica, Case::Nominative, language);
                 match overhang(world, *replica, *item) {
-                    Some((low, tall)) if russian => {
-                        format!("{name} (низ на высоте {}, робот высотой {})", cm(low), cm(tall))
-                    }
                     Some((low, tall)) => {
-                        let (low, tall) = (cm(low), cm(tall));
-                        format!("{name} (its underside at {low}, the robot is {tall} tall)")
+                        told!(language, "overhanging", name, low = cm(low), tall = cm(tall))
                     }
                     None => name,
                 }
             }
-            (Blocker::DoorLeaf { door, .. }, _) => leaf(Entity::Door(*door)),
-            (Blocker::ReplicaLeaf { replica, .. }, _) => leaf(Entity::Replica(*replica)),
-            (Blocker::Wall { .. }, true) => "стена".to_owned(),
-            (Blocker::Wall { .. }, false) => "a wall".to_owned(),
-            (Blocker::Floor { .. }, true) => "ступень или низкий потолок".to_owned(),
-            (Blocker::Floor { .. }, false) => "a step or a low ceiling".to_owned(),
-            (Blocker::Zone { zone }, _) => form(&of(Entity::Zone(*zone)), Case::Nominative),
+            Blocker::DoorLeaf { door, .. } => leaf(Entity::Door(*door)),
+            Blocker::ReplicaLeaf { replica, .. } => leaf(Entity::Replica(*replica)),
+            Blocker::Wall { .. } => told!(language, "a-wall"),
+            Blocker::Floor { .. } => told!(language, "a-step-or-a-low-ceiling"),
+            Blocker::Zone { zone } => form(&of(Entity::Zone(*zone)), Case::Nominative),
         };
         let mut names: Vec<String> = blockers.iter().map(name).collect();
         names.dedup();
@@ -146,102 +128,55 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         Barrier::Door { door: id, status } => {
             let name = door(*id);
             let locked = *status == DoorStatus::Locked;
-            match russian {
-                true => format!("{} {}", form(&name, Case::Nominative), shut(&name, locked)),
-                false if locked => format!("{} is locked", name.english()),
-                false => format!("{} is closed", name.english()),
+            let (door, agrees) = (form(&name, Case::Nominative), agrees(&name));
+            match locked {
+                true => told!(language, "door-locked", door, agrees),
+                false => told!(language, "door-closed", door, agrees),
             }
         }
         Barrier::Narrow { door: id, areas, width, needed } => {
-            let what = match (id, russian) {
-                (Some(id), true) => format!("проём {}", form(&door(*id), Case::Genitive)),
-                (Some(id), false) => format!("the doorway of {}", door(*id).english()),
-                (None, true) => format!("проход между {}", pair(areas)),
-                (None, false) => format!("the passage between {}", pair(areas)),
+            let what = match id {
+                Some(id) => told!(language, "doorway-of", of = form(&door(*id), Case::Genitive)),
+                None => told!(language, "passage-between", pair = pair(areas)),
             };
-            match russian {
-                true => format!("{what} шириной {}, роботу нужно {}", cm(*width), cm(*needed)),
-                false => format!("{what} is {} wide, the robot needs {}", cm(*width), cm(*needed)),
-            }
+            let (width, needed) = (cm(*width), cm(*needed));
+            told!(language, "too-narrow", what, width, needed)
         }
-        Barrier::Low { door: id, height, needed } => match russian {
-            true => format!(
-                "высота {} – {}, а робота – {}",
-                form(&door(*id), Case::Genitive),
-                cm(*height),
-                cm(*needed)
-            ),
-            false => format!(
-                "{} is {} high, the robot {}",
-                door(*id).english(),
-                cm(*height),
-                cm(*needed)
-            ),
-        },
-        Barrier::Step { areas, rise } => match russian {
-            true => format!("ступень {} между {}", cm(rise.abs()), pair(areas)),
-            false => format!("there is a step of {} between {}", cm(rise.abs()), pair(areas)),
-        },
-        Barrier::Gap { area, width, needed, between } => match russian {
-            true => format!(
-                "промежуток {} – {}, роботу нужно {} ({})",
-                crate::language::russian::where_at(of(Entity::Area(*area)).phrase()),
-                cm(*width),
-                cm(*needed),
-                list(between)
-            ),
-            false => format!(
-                "a gap in {} is {} wide, the robot needs {} ({})",
-                room(*area, Case::Nominative),
-                cm(*width),
-                cm(*needed),
-                list(between)
-            ),
-        },
-        Barrier::Enclosed { area, by } => match (by.is_empty(), russian) {
-            (true, true) => format!("из {} выхода нет", room(*area, Case::Genitive)),
-            (true, false) => format!("{} has no way out", room(*area, Case::Nominative)),
-            (false, true) => format!(
-                "{} путь загораживают: {}",
-                crate::language::russian::where_at(of(Entity::Area(*area)).phrase()),
-                list(by)
-            ),
-            (false, false) => {
-                format!("in {} the way is shut off by {}", room(*area, Case::Nominative), list(by))
-            }
-        },
+        Barrier::Low { door: id, height, needed } => {
+            let of = form(&door(*id), Case::Genitive);
+            told!(language, "too-low", of, height = cm(*height), needed = cm(*needed))
+        }
+        Barrier::Step { areas, rise } => {
+            told!(language, "step-between", rise = cm(rise.abs()), pair = pair(areas))
+        }
+        Barrier::Gap { area, width, needed, between } => {
+            let (width, needed) = (cm(*width), cm(*needed));
+            told!(language, "gap", place = place(*area), width, needed, between = list(between))
+        }
+        Barrier::Enclosed { area, by } if by.is_empty() => {
+            told!(language, "no-way-out", room = room(*area, Case::Genitive))
+        }
+        Barrier::Enclosed { area, by } => {
+            told!(language, "shut-off", place = place(*area), by = list(by))
+        }
         Barrier::Zone { zone } => zone_in_words(world, *zone, language),
-        Barrier::Doorless { area } => match russian {
-            true => format!(
-                "из {} нет ни двери, ни прохода в другие помещения",
-                room(*area, Case::Genitive)
-            ),
-            false => format!(
-                "no door or passage leads from {} to another room",
-                room(*area, Case::Nominative)
-            ),
-        },
-        Barrier::Apart { areas } => match russian {
-            true => format!(
-                "{} и {} не соединены ни дверью, ни проходом",
-                room(areas[0], Case::Nominative),
-                room(areas[1], Case::Nominative)
-            ),
-            false => format!("no door or passage joins {}", pair(areas)),
-        },
+        Barrier::Doorless { area } => {
+            told!(language, "doorless", room = room(*area, Case::Genitive))
+        }
+        Barrier::Apart { areas } => {
+            let rooms = areas.map(|area| room(area, Case::Nominative));
+            told!(language, "joined-by-nothing", rooms = enumerate(&rooms, language))
+        }
     }
 }
 
-fn shut(name: &Named, locked: bool) -> &'static str {
-    match (name.phrase().number(), name.phrase().gender(), locked) {
-        (Number::Plural, _, true) => "заперты",
-        (Number::Plural, _, false) => "закрыты",
-        (_, Gender::Feminine, true) => "заперта",
-        (_, Gender::Feminine, false) => "закрыта",
-        (_, Gender::Neuter, true) => "заперто",
-        (_, Gender::Neuter, false) => "закрыто",
-        (_, Gender::Masculine, true) => "заперт",
-        (_, Gender::Masculine, false) => "закрыт",
+/// With what a word about it agrees.
+fn agrees(name: &Named) -> &'static str {
+    match (name.phrase().number(), name.phrase().gender()) {
+        (Number::Plural, _) => "plural",
+        (_, Gender::Feminine) => "feminine",
+        (_, Gender::Neuter) => "neuter",
+        (_, Gender::Masculine) => "masculine",
     }
 }
 

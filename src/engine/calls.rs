@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::store::Timestamp;
-use crate::units::{Language, is_input};
+use crate::units::{Language, is_input, told};
 
 use super::RequestError;
 
@@ -37,13 +37,13 @@ pub(crate) enum Ending {
 }
 
 impl Ending {
-    fn say(self, language: Language) -> &'static str {
+    fn say(self, language: Language) -> String {
         match self {
-            Self::Answered => language.pick("дан ответ", "answered"),
-            Self::Refused => language.pick("отказано", "refused"),
-            Self::Asked => language.pick("спрошен человек", "a person is asked"),
-            Self::Begun => language.pick("начато", "begun"),
-            Self::Cancelled => language.pick("отозвано", "cancelled"),
+            Self::Answered => told!(language, "call-answered"),
+            Self::Refused => told!(language, "call-refused"),
+            Self::Asked => told!(language, "call-asks"),
+            Self::Begun => told!(language, "call-begun"),
+            Self::Cancelled => told!(language, "call-cancelled"),
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::sensing::{
     Belief, Chart, DoorSeen, Fit, Inspector, Localiser, Options, ThingSeen, Tracker,
 };
 use crate::store::{FoundAt, Observation, RobotMemory, Seen, SeenObstacle, Timestamp};
-use crate::units::{AreaId, DoorId, Frame, Lengths, MapId, Point, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, Lengths, MapId, Point, ReplicaId, told};
 use crate::vectors::read::Scan;
 
 use super::memory::ROBOT;
@@ -286,33 +286,20 @@ impl Differing {
     #[must_use]
     pub fn in_words(&self, world: &World, language: Language) -> Vec<String> {
         let lengths = Lengths::said();
-        let pick = |russian: &str, english: &str| language.pick(russian, english).to_owned();
-        let mut lines = vec![match language {
-            Language::Russian => {
-                format!("Сканов {}, из них с известным местом {}.", self.scans, self.held)
-            }
-            Language::English => {
-                format!("{} scans, {} of them with a known pose.", self.scans, self.held)
-            }
-        }];
+        let mut lines = vec![told!(language, "scans-held", scans = self.scans, held = self.held)];
         let name = |entity: Entity| named(world, entity, language);
         let area = |id: AreaId| name(Entity::Area(id));
         let mut same = 0;
         for (&id, &(news, sure)) in &self.things {
             let thing = name(Entity::Replica(id));
             let sure = (sure * 100.0).round();
-            match (news, language) {
-                (ThingNews::There, _) => same += 1,
-                (ThingNews::Missed, Language::Russian) => {
-                    lines.push(format!("{thing}: на месте нет ({sure} %)"));
-                }
-                (ThingNews::Missed, Language::English) => {
-                    lines.push(format!("{thing}: not in its place ({sure} %)"));
-                }
-                (ThingNews::Moved(to), _) => {
+            match news {
+                ThingNews::There => same += 1,
+                ThingNews::Missed => lines.push(told!(language, "thing-missed", thing, sure)),
+                ThingNews::Moved(to) => {
                     let (at, turn) = (to.frame.origin(), to.frame.angle.get());
                     let (at, room) = (lengths.point(at.x, at.y, 0), area(to.area));
-                    let now = pick("теперь", "now at");
+                    let now = told!(language, "now-at");
                     lines.push(format!("{thing}: {now} {at}, {turn:.0}°, {room} ({sure} %)"));
                 }
             }
@@ -327,9 +314,9 @@ impl Differing {
             let state = match news.state.status {
                 DoorStatus::Open => {
                     let (low, high) = news.between;
-                    format!("{} ({low:.0}–{high:.0} %)", pick("открыто", "open"))
+                    format!("{} ({low:.0}–{high:.0} %)", told!(language, "stands-open"))
                 }
-                DoorStatus::Closed | DoorStatus::Locked => pick("закрыто", "closed"),
+                DoorStatus::Closed | DoorStatus::Locked => told!(language, "closed"),
             };
             lines.push(format!("{door}: {state} ({sure} %)"));
         }
@@ -342,19 +329,16 @@ impl Differing {
             let [long, wide] = [size.x, size.y].map(|length| lengths.number(length, 0));
             lines.push(format!(
                 "{}: {long} × {wide} {unit}, {}, {} ({sure} %)",
-                pick("на карте этого нет", "not on the map"),
+                told!(language, "not-on-the-map"),
                 lengths.point(at.x, at.y, 0),
                 area(obstacle.area)
             ));
         }
         if !self.gone.is_empty() {
-            let gone = pick("прежних препятствий больше нет", "obstacles that are gone");
+            let gone = told!(language, "obstacles-gone");
             lines.push(format!("{gone}: {}", self.gone.len()));
         }
-        lines.push(match language {
-            Language::Russian => format!("Как на карте: {same}."),
-            Language::English => format!("As on the map: {same}."),
-        });
+        lines.push(told!(language, "as-on-the-map-same", same));
         lines
     }
 }

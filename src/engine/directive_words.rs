@@ -8,7 +8,7 @@ use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Directive, GoalFact, IN_MIDDLE, Primitive, STARTING_POINT};
 use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::{predicate, storey_name};
-use crate::units::Bilingual;
+use crate::units::{Bilingual, Piece, told, word};
 
 use super::located::spot_in_words;
 
@@ -23,7 +23,6 @@ pub(super) fn actions_in_words(
     directive: &Directive,
     language: Language,
 ) -> Vec<String> {
-    let is_russian = language == Language::Russian;
     let name = |name: &str| {
         let thing = world.find(name).into_iter().find(|e| matches!(e, Entity::Replica(_)));
         match thing.map(|e| named(world, e)) {
@@ -31,50 +30,38 @@ pub(super) fn actions_in_words(
             None => name.to_owned(),
         }
     };
-    let say = |ru: String, en: String| Some(if is_russian { ru } else { en });
-    let sentence = |primitive: &Primitive| match primitive {
-        Primitive::Switch { device, on } => {
-            let device = name(device);
-            let (ru, en) = if *on { ("включил", "on") } else { ("выключил", "off") };
-            say(format!("Я {ru} {device}."), format!("I switched {en} {device}."))
-        }
-        Primitive::SetOpen { thing, open } => {
-            let thing = name(thing);
-            let (ru, en) =
-                if *open { ("открыл", "opened") } else { ("закрыл", "shut") };
-            say(format!("Я {ru} {thing}."), format!("I {en} {thing}."))
-        }
-        Primitive::Push(thing) => {
-            let thing = name(thing);
-            say(format!("Я подвинул {thing}."), format!("I pushed {thing} aside."))
-        }
-        Primitive::Seek(thing) => {
-            let thing = name(thing);
-            say(format!("Я вижу {thing}."), format!("I see {thing}."))
-        }
-        Primitive::Put { thing, .. } if directive.brings_about(predicate::IN_ITS_PLACE) => {
-            let thing = name(thing);
-            say(format!("Я вернул {thing} на место."), format!("I put {thing} back in its place."))
-        }
-        Primitive::Put { thing, .. } if directive.brings_about(predicate::THROWN_AWAY) => {
-            let thing = name(thing);
-            say(format!("Я выбросил {thing}."), format!("I threw {thing} away."))
-        }
-        Primitive::SetDoor { door, .. } if directive.needs(predicate::PERSON_HAS_KEY) => {
-            let door = named_door(world, door, language);
-            say(
-                format!("Подойдите, пожалуйста, ко мне и отоприте {door}."),
-                format!("Please come to me and unlock {door}."),
-            )
-        }
-        Primitive::Call(person) => {
-            let english = if person == OPERATOR { "Operator" } else { person };
-            say(
-                format!("{person}, подойдите, пожалуйста, ко мне."),
-                format!("{english}, please come to me."),
-            )
-        }
-        _ => None,
+    let sentence = |primitive: &Primitive| {
+        Some(match primitive {
+            Primitive::Switch { device, on: true } => {
+                told!(language, "i-switched-on", device = name(device))
+            }
+            Primitive::Switch { device, on: false } => {
+                told!(language, "i-switched-off", device = name(device))
+            }
+            Primitive::SetOpen { thing, open: true } => {
+                told!(language, "i-opened", thing = name(thing))
+            }
+            Primitive::SetOpen { thing, open: false } => {
+                told!(language, "i-shut", thing = name(thing))
+            }
+            Primitive::Push(thing) => told!(language, "i-pushed", thing = name(thing)),
+            Primitive::Seek(thing) => told!(language, "i-see", thing = name(thing)),
+            Primitive::Put { thing, .. } if directive.brings_about(predicate::IN_ITS_PLACE) => {
+                told!(language, "i-put-back", thing = name(thing))
+            }
+            Primitive::Put { thing, .. } if directive.brings_about(predicate::THROWN_AWAY) => {
+                told!(language, "i-threw-away", thing = name(thing))
+            }
+            Primitive::SetDoor { door, .. } if directive.needs(predicate::PERSON_HAS_KEY) => {
+                told!(language, "come-and-unlock", door = named_door(world, door, language))
+            }
+            Primitive::Call(person) => {
+                let is_operator = language == Language::English && person == OPERATOR;
+                let person = if is_operator { told!(language, "operator") } else { person.clone() };
+                told!(language, "come-to-me", person)
+            }
+            _ => return None,
+        })
     };
     directive.primitives().iter().filter_map(sentence).collect()
 }
@@ -94,19 +81,19 @@ pub(crate) fn directive_in_words(
     let words = Words { world, language };
     let opened = |status| match (status, directive.needs(predicate::DOOR_LOCKED)) {
         (DoorStatus::Closed, true) if directive.needs(predicate::PERSON_HAS_KEY) => {
-            ("попросить отпереть", "ask for someone to unlock")
+            word!("ask-for-someone-to-unlock")
         }
-        (DoorStatus::Open, _) => ("открыть", "open"),
-        (DoorStatus::Closed, true) => ("отпереть", "unlock"),
-        (DoorStatus::Closed, false) => ("закрыть", "close"),
-        (DoorStatus::Locked, _) => ("запереть", "lock"),
+        (DoorStatus::Open, _) => word!("open"),
+        (DoorStatus::Closed, true) => word!("unlock"),
+        (DoorStatus::Closed, false) => word!("close"),
+        (DoorStatus::Locked, _) => word!("lock"),
     };
     let inside = directive.brings_about(predicate::THING_IN);
     let told: Vec<String> =
         directive.primitives().iter().map(|it| words.primitive(it, inside, opened)).collect();
     match told.is_empty() {
         true => words.action(&directive.action, &directive.args),
-        false => told.join(language.pick(" и ", " and ")),
+        false => told.join(&told!(language, "and")),
     }
 }
 
@@ -117,7 +104,6 @@ pub(super) fn goal_in_words(world: &World, goal: &GoalFact, language: Language) 
     let other = |n: usize| goal.args.get(n).cloned().unwrap_or_default();
     let name = other(0);
     let accusative = |name: &str| words.name(name, Case::Accusative);
-    let pick = |ru, en| language.pick(ru, en);
     let wanted = goal.predicate.as_str();
     let primitive = match wanted {
         predicate::ROBOT_AT_PLACE => Primitive::GoToPlace(name),
@@ -141,28 +127,26 @@ pub(super) fn goal_in_words(world: &World, goal: &GoalFact, language: Language) 
         predicate::DOOR_CLOSED => Primitive::SetDoor { door: name, status: DoorStatus::Closed },
         predicate::DOOR_LOCKED => Primitive::SetDoor { door: name, status: DoorStatus::Locked },
         predicate::ROBOT_IN => {
-            return format!("{} {}", pick("поехать", "drive"), words.through_to(&name));
+            return told!(language, "drive-to", to = words.through_to(&name));
         }
         predicate::ROBOT_ON_STOREY => {
             let map = world.maps.keys().find(|map| storey_name(world, **map) == name);
             let to = map.map(|map| named(world, Entity::Map(*map)).whither_storey(language));
-            return format!("{} {}", pick("поехать", "drive"), to.unwrap_or(name));
+            return told!(language, "drive-to", to = to.unwrap_or(name));
         }
         predicate::IN_ITS_PLACE => {
-            let (verb, back) = (pick("вернуть", "put"), pick("на место", "back in its place"));
-            return format!("{verb} {} {back}", accusative(&name));
+            return told!(language, "put-back", thing = accusative(&name));
         }
-        predicate::THROWN_AWAY => match language {
-            Language::Russian => return format!("выбросить {}", accusative(&name)),
-            Language::English => return format!("throw {} away", accusative(&name)),
-        },
+        predicate::THROWN_AWAY => {
+            return told!(language, "throw-away", thing = accusative(&name));
+        }
         _ => return words.action(wanted, &goal.args),
     };
     // What is to be closed may be closed now, or locked.
     words.primitive(&primitive, wanted == predicate::THING_IN, |status| match status {
-        DoorStatus::Open => ("открыть", "open"),
-        DoorStatus::Closed => ("закрыть (не на замок)", "close (not lock)"),
-        DoorStatus::Locked => ("запереть", "lock"),
+        DoorStatus::Open => word!("open"),
+        DoorStatus::Closed => word!("close-not-lock"),
+        DoorStatus::Locked => word!("lock"),
     })
 }
 
@@ -189,18 +173,15 @@ impl TaskAnswer {
                 self.reports.iter().map(|r| directive_in_words(world, &r.directive, language));
             let steps = steps.collect::<Vec<_>>().join(", ");
             let end = match self.ending {
-                TaskEnding::Done => language.pick("сделано", "done"),
-                TaskEnding::AlreadyTrue => language.pick("так уже было", "it was so already"),
-                TaskEnding::NoPlan(_) => language.pick("плана не было", "there was no plan"),
-                TaskEnding::Stuck(_) => language.pick("не вышло", "it did not work out"),
-                TaskEnding::Stopped => language.pick("остановлено", "it was stopped"),
-                TaskEnding::Failed(_) => language.pick("робот отказал", "the robot failed"),
+                TaskEnding::Done => told!(language, "done"),
+                TaskEnding::AlreadyTrue => told!(language, "it-was-so-already"),
+                TaskEnding::NoPlan(_) => told!(language, "there-was-no-plan"),
+                TaskEnding::Stuck(_) => told!(language, "it-did-not-work-out"),
+                TaskEnding::Stopped => told!(language, "it-was-stopped"),
+                TaskEnding::Failed(_) => told!(language, "the-robot-failed"),
             };
             let stop = if steps.is_empty() { "" } else { "; " };
-            match language {
-                Language::Russian => format!("последнее задание – «{command}»: {steps}{stop}{end}"),
-                Language::English => format!("the last task was “{command}”: {steps}{stop}{end}"),
-            }
+            told!(language, "last-task", command, steps, stop, end)
         };
         Bilingual::new(told(Language::Russian), told(Language::English))
     }
@@ -212,7 +193,7 @@ impl TaskAnswer {
 pub(crate) fn name_in(world: &World, name: &str, language: Language) -> String {
     match (language, name.strip_prefix(PLACE_BESIDE)) {
         (Language::Russian, _) => name.to_owned(),
-        (Language::English, _) if name == OPERATOR => "the operator".to_owned(),
+        (Language::English, _) if name == OPERATOR => told!(language, "operator-accusative"),
         (Language::English, beside) => {
             let told = Words { world, language }.name(name, Case::Nominative);
             if beside.is_some() { format!("the place by {told}") } else { told }
@@ -224,10 +205,9 @@ pub(crate) fn name_in(world: &World, name: &str, language: Language) -> String {
 struct TaskPoint {
     /// What its name begins with.
     prefix: &'static str,
-    /// In Russian, in the dative and otherwise, and in English.
-    dative: &'static str,
-    other: &'static str,
-    english: &'static str,
+    /// In the dative and otherwise.
+    dative: Piece,
+    other: Piece,
     preposition: Option<Preposition>,
     case: Case,
 }
@@ -235,105 +215,92 @@ struct TaskPoint {
 const TASK_POINTS: [TaskPoint; 13] = [
     TaskPoint {
         prefix: OPERATOR_PLACE,
-        dative: "оператору",
-        other: "место оператора",
-        english: "the operator's place",
+        dative: word!("point-of-operator-dative"),
+        other: word!("point-of-operator"),
         preposition: None,
         case: Case::Genitive,
     },
     TaskPoint {
         prefix: BY_WINDOW,
-        dative: "окну",
-        other: "окно",
-        english: "the window in",
+        dative: word!("point-by-window-dative"),
+        other: word!("point-by-window"),
         preposition: Some(Preposition::V),
         case: Case::Prepositional,
     },
     TaskPoint {
         prefix: ON_FLOOR,
-        dative: "свободному месту",
-        other: "свободное место",
-        english: "the free floor in",
+        dative: word!("point-on-floor-dative"),
+        other: word!("point-on-floor"),
         preposition: Some(Preposition::V),
         case: Case::Prepositional,
     },
     TaskPoint {
         prefix: IN_MIDDLE,
-        dative: "середине",
-        other: "середину",
-        english: "the middle of",
+        dative: word!("point-in-middle-dative"),
+        other: word!("point-in-middle"),
         preposition: None,
         case: Case::Genitive,
     },
     TaskPoint {
         prefix: AT_SPOT,
-        dative: "точке",
-        other: "точку",
-        english: "the point",
+        dative: word!("point-of-floor-dative"),
+        other: word!("point-of-floor"),
         preposition: None,
         case: Case::Genitive,
     },
     TaskPoint {
         prefix: FACING_WINDOW,
-        dative: "месту лицом к окну",
-        other: "место лицом к окну",
-        english: "the place facing the window in",
+        dative: word!("point-facing-window-dative"),
+        other: word!("point-facing-window"),
         preposition: Some(Preposition::V),
         case: Case::Prepositional,
     },
     TaskPoint {
         prefix: FACING_WALL,
-        dative: "месту лицом к стене",
-        other: "место лицом к стене",
-        english: "the place facing the wall in",
+        dative: word!("point-facing-wall-dative"),
+        other: word!("point-facing-wall"),
         preposition: Some(Preposition::V),
         case: Case::Prepositional,
     },
     TaskPoint {
         prefix: FACING,
-        dative: "месту лицом",
-        other: "место лицом",
-        english: "the place facing",
+        dative: word!("point-facing-dative"),
+        other: word!("point-facing"),
         preposition: Some(Preposition::K),
         case: Case::Dative,
     },
     TaskPoint {
         prefix: BETWEEN,
-        dative: "месту между",
-        other: "место между",
-        english: "the place between",
+        dative: word!("point-between-dative"),
+        other: word!("point-between"),
         preposition: None,
         case: Case::Instrumental,
     },
     TaskPoint {
         prefix: LEFT_OF,
-        dative: "месту слева",
-        other: "место слева",
-        english: "the place to the left of",
+        dative: word!("point-left-of-dative"),
+        other: word!("point-left-of"),
         preposition: Some(Preposition::Ot),
         case: Case::Genitive,
     },
     TaskPoint {
         prefix: RIGHT_OF,
-        dative: "месту справа",
-        other: "место справа",
-        english: "the place to the right of",
+        dative: word!("point-right-of-dative"),
+        other: word!("point-right-of"),
         preposition: Some(Preposition::Ot),
         case: Case::Genitive,
     },
     TaskPoint {
         prefix: BEHIND,
-        dative: "месту",
-        other: "место",
-        english: "the place behind",
+        dative: word!("point-behind-dative"),
+        other: word!("point-behind"),
         preposition: Some(Preposition::Za),
         case: Case::Instrumental,
     },
     TaskPoint {
         prefix: IN_FRONT_OF,
-        dative: "месту",
-        other: "место",
-        english: "the place in front of",
+        dative: word!("point-in-front-of-dative"),
+        other: word!("point-in-front-of"),
         preposition: Some(Preposition::Pered),
         case: Case::Instrumental,
     },
@@ -429,87 +396,64 @@ impl Words<'_> {
         &self,
         primitive: &Primitive,
         inside: bool,
-        opened: impl Fn(DoorStatus) -> (&'static str, &'static str),
+        opened: impl Fn(DoorStatus) -> Piece,
     ) -> String {
-        let pick = |ru, en| self.language.pick(ru, en);
+        let language = self.language;
         let accusative = |name: &str| self.name(name, Case::Accusative);
+        let lift_named = |lift: &str| match language {
+            Language::Russian => lift.to_owned(),
+            Language::English => self.name(lift, Case::Nominative),
+        };
         match primitive {
             Primitive::GoToPlace(to) | Primitive::GoToDoor(to) => {
-                format!("{} {}", pick("подъехать", "drive"), self.at(Preposition::K, "to", to))
+                told!(language, "drive-up", to = self.at(Preposition::K, "to", to))
             }
-            Primitive::Cross { door, into } => format!(
-                "{} {} {}",
-                pick("проехать через", "go through"),
-                accusative(door),
-                self.through_to(into)
-            ),
+            Primitive::Cross { door, into } => {
+                let (door, into) = (accusative(door), self.through_to(into));
+                told!(language, "go-through", door, into)
+            }
             Primitive::SetDoor { door, status } => {
-                let (ru, en) = opened(*status);
-                format!("{} {}", pick(ru, en), accusative(door))
+                format!("{} {}", opened(*status).say(language), accusative(door))
             }
-            Primitive::CallLift { lift, .. } => match self.language {
-                Language::Russian => format!("вызвать лифт «{lift}»"),
-                Language::English => {
-                    format!("call the lift “{}”", self.name(lift, Case::Nominative))
-                }
-            },
-            Primitive::Ride { lift, to, .. } => match self.language {
-                Language::Russian => format!("поехать на лифте «{lift}» {}", self.storey(to)),
-                Language::English => {
-                    let lift = self.name(lift, Case::Nominative);
-                    format!("ride the lift “{lift}” {}", self.storey(to))
-                }
-            },
-            Primitive::SetOpen { thing, open } => {
-                let verb = if *open {
-                    pick("открыть", "open")
-                } else {
-                    pick("закрыть", "shut")
-                };
-                format!("{verb} {}", accusative(thing))
+            Primitive::CallLift { lift, .. } => {
+                told!(language, "call-lift", lift = lift_named(lift))
             }
-            Primitive::Push(thing) => {
-                format!("{} {}", pick("подвинуть", "push aside"), accusative(thing))
+            Primitive::Ride { lift, to, .. } => {
+                told!(language, "ride-lift", lift = lift_named(lift), to = self.storey(to))
             }
-            Primitive::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
-            Primitive::Put { thing, onto: Some(onto) } => format!(
-                "{} {} {}",
-                pick("положить", "put"),
-                accusative(thing),
-                if inside {
-                    self.at(Preposition::V, "in", onto)
-                } else {
-                    format!("{} {}", pick("на", "on"), accusative(onto))
-                }
-            ),
-            Primitive::Put { thing, onto: None } => match self.language {
-                Language::Russian => format!("положить {} на пол", accusative(thing)),
-                Language::English => format!("put {} down", accusative(thing)),
-            },
-            Primitive::HandOver { thing, person } => match self.language {
-                Language::Russian => {
-                    format!("передать {} {}", accusative(thing), self.person(person, Case::Dative))
-                }
-                Language::English => {
-                    format!("give {} to {}", accusative(thing), self.person(person, Case::Dative))
-                }
-            },
-            Primitive::Switch { device, on } => {
-                let (ru, en) = if *on {
-                    ("включить", "switch on")
-                } else {
-                    ("выключить", "switch off")
-                };
-                format!("{} {}", pick(ru, en), accusative(device))
+            Primitive::SetOpen { thing, open: true } => {
+                told!(language, "open-thing", thing = accusative(thing))
             }
-            Primitive::LookRound => pick("осмотреться", "look round").to_owned(),
-            Primitive::Seek(thing) => {
-                format!("{} {}", pick("найти", "look for"), accusative(thing))
+            Primitive::SetOpen { thing, open: false } => {
+                told!(language, "shut-thing", thing = accusative(thing))
             }
-            Primitive::Call(person) => match self.language {
-                Language::Russian => format!("позвать {}", self.person(person, Case::Accusative)),
-                Language::English => format!("call {}", self.person(person, Case::Accusative)),
-            },
+            Primitive::Push(thing) => told!(language, "push-aside", thing = accusative(thing)),
+            Primitive::Take(thing) => told!(language, "take", thing = accusative(thing)),
+            Primitive::Put { thing, onto: Some(onto) } if inside => {
+                let (thing, into) = (accusative(thing), self.at(Preposition::V, "in", onto));
+                told!(language, "put-into", thing, into)
+            }
+            Primitive::Put { thing, onto: Some(onto) } => {
+                told!(language, "put-onto", thing = accusative(thing), onto = accusative(onto))
+            }
+            Primitive::Put { thing, onto: None } => {
+                told!(language, "put-down", thing = accusative(thing))
+            }
+            Primitive::HandOver { thing, person } => {
+                let person = self.person(person, Case::Dative);
+                told!(language, "give-to", thing = accusative(thing), person)
+            }
+            Primitive::Switch { device, on: true } => {
+                told!(language, "switch-on", device = accusative(device))
+            }
+            Primitive::Switch { device, on: false } => {
+                told!(language, "switch-off", device = accusative(device))
+            }
+            Primitive::LookRound => told!(language, "look-round"),
+            Primitive::Seek(thing) => told!(language, "look-for", thing = accusative(thing)),
+            Primitive::Call(person) => {
+                told!(language, "call", person = self.person(person, Case::Accusative))
+            }
         }
     }
 
@@ -547,31 +491,26 @@ impl Words<'_> {
         for point in &TASK_POINTS {
             let Some(at) = name.strip_prefix(point.prefix) else { continue };
             if point.prefix == AT_SPOT && self.language == Language::English {
-                return format!("{} {}", point.english, at.replace("; ", ", "));
+                return format!("{} {}", point.other.say(self.language), at.replace("; ", ", "));
             }
             let told: Vec<String> = at.split(AND).map(|name| self.name(name, point.case)).collect();
-            let told = told.join(self.language.pick(" и ", " and "));
+            let told = told.join(&told!(self.language, "and"));
             let of = if case == Case::Dative { point.dative } else { point.other };
-            return match (self.language, point.preposition) {
-                (Language::English, _) => format!("{} {told}", point.english),
-                (_, None) => format!("{of} {told}"),
-                (_, Some(preposition)) => {
+            let of = of.say(self.language);
+            return match point.preposition {
+                Some(preposition) if self.language == Language::Russian => {
                     format!("{of} {} {told}", russian::preposition(preposition, &told))
                 }
+                _ => format!("{of} {told}"),
             };
         }
         let known = name.strip_prefix(PLACE_BESIDE).unwrap_or(name);
         match (self.world.find(known).first(), self.language) {
             (Some(&entity), language) => named(self.world, entity).form(case, language),
-            (None, Language::Russian) if name == STARTING_POINT || name == ROBOT_PLACE => {
-                match case {
-                    Case::Dative => "исходной точке".to_owned(),
-                    _ => "исходную точку".to_owned(),
-                }
-            }
-            (None, Language::English) if name == STARTING_POINT || name == ROBOT_PLACE => {
-                "its starting place".to_owned()
-            }
+            (None, language) if name == STARTING_POINT || name == ROBOT_PLACE => match case {
+                Case::Dative => told!(language, "starting-point-dative"),
+                _ => told!(language, "starting-point"),
+            },
             (None, Language::English) if self.is_lift(name) => {
                 Named::plain(name).english_name().to_owned()
             }
@@ -593,10 +532,9 @@ impl Words<'_> {
     }
 
     fn person(&self, person: &str, case: Case) -> String {
-        match (self.language, case) {
-            (Language::English, _) if person == OPERATOR => "the operator".to_owned(),
-            (Language::Russian, Case::Dative) if person == OPERATOR => "оператору".to_owned(),
-            (Language::Russian, _) if person == OPERATOR => "оператора".to_owned(),
+        match case {
+            Case::Dative if person == OPERATOR => told!(self.language, "operator-dative"),
+            _ if person == OPERATOR => told!(self.language, "operator-accusative"),
             _ => self.name(person, case),
         }
     }

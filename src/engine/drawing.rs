@@ -10,7 +10,7 @@ use crate::geometry::{FloorPlan, Opening, Sight};
 use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
 use crate::units::{
-    AreaId, InOrder as _, Language, MapId, Point, Pose, Vector, bilingual, nearest_name,
+    AreaId, InOrder as _, Language, MapId, Point, Pose, Vector, nearest_name, said,
 };
 
 use super::{Error, RequestError, State};
@@ -155,8 +155,7 @@ impl State {
             Ok(Entity::Replica(id)) => Ok(&world.objects[&world.replicas[&id].object]),
             Ok(_) => {
                 let names = world.objects.values().map(|o| o.name.as_str());
-                let help = nearest_name(name, names)
-                    .map(|near| bilingual!("может быть, «{near}»?", "perhaps “{near}”?"));
+                let help = nearest_name(name, names).map(|near| said!("perhaps-near", near));
                 Err(RequestError::UnknownName { name: name.to_owned(), help }.into())
             }
             Err(error) => Err(error),

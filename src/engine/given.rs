@@ -8,7 +8,7 @@ use crate::language::report::Named;
 use crate::robot::facts_of_map;
 use crate::semantics::planning::{InitialFact, PLACE_BESIDE};
 use crate::strips::{Domain, Problem, in_quotes};
-use crate::units::{Gather as _, Language, name_key};
+use crate::units::{Gather as _, Language, name_key, told, word};
 
 use super::known::Known;
 use super::task::OPERATOR;
@@ -143,12 +143,12 @@ fn in_rule_file<'a>(facts: &'a [InitialFact], names: &Names<'a>) -> String {
     let object = |(kind, name): &(&str, &str)| {
         format!("{} — {}", names.object(name), names.domain.called_kind(kind, names.language))
     };
-    section(names.language.pick("Объекты", "Objects"), objects.iter().map(object).collect());
-    let heads = [(("Факты", "Facts"), false), (("Предположения", "Assumptions"), true)];
-    for ((russian, english), assumed) in heads {
+    section(&told!(names.language, "objects"), objects.iter().map(object).collect());
+    let heads = [(word!("facts"), false), (word!("assumptions"), true)];
+    for (head, assumed) in heads {
         let stated = facts.iter().filter(|fact| fact.assumed == assumed);
-        let head = names.language.pick(russian, english);
-        section(head, stated.map(|fact| names.fact(fact)).collect());
+        let head = head.say(names.language);
+        section(&head, stated.map(|fact| names.fact(fact)).collect());
     }
     text
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::store::{
     Change, Difference, Forgotten, ImportReport, Revision, Store, StoreError, Timestamp,
 };
-use crate::units::Bilingual;
+use crate::units::{Bilingual, said, word};
 
 use super::edit::Spares;
 use super::{Engine, Error, RequestError, State};
@@ -26,12 +26,7 @@ impl std::str::FromStr for When {
             return Ok(Self::Revision(number));
         }
         let moment = text.parse::<Timestamp>().map(Self::Moment);
-        moment.map_err(|e| {
-            Bilingual::new(
-                format!("«{text}» – не номер правки и не время; {e}"),
-                format!("“{text}” is neither the number of a revision nor a time, such as 2026-11-21T09:30:00.000Z"),
-            )
-        })
+        moment.map_err(|_| said!("neither-number-nor-time", text))
     }
 }
 
@@ -144,12 +139,5 @@ impl Engine {
 }
 
 pub(super) fn in_memory() -> StoreError {
-    StoreError::ReadOnly {
-        reason: (
-            "карта держится в памяти, без хранилища",
-            "the map is held in memory, without a store",
-        )
-            .into(),
-        by_choice: true,
-    }
+    StoreError::ReadOnly { reason: word!("the-map-is-held-in").into(), by_choice: true }
 }

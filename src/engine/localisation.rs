@@ -4,7 +4,7 @@ use crate::language::Language;
 use crate::sensing::{
     Belief, Chart, Event, Fit, Localiser, Move, Options, Tracker, Unknown, telling_move,
 };
-use crate::units::{MapId, Pose};
+use crate::units::{MapId, Pose, told, word};
 
 use super::news::move_in_words;
 use super::{Error, RequestError, Sighted, State, Whereabout};
@@ -139,36 +139,22 @@ impl Unplaced {
 
     /// «то, что видно, на карте ни к чему не подходит».
     fn in_words(self, language: Language) -> String {
-        let (russian, english) = match self {
+        let why = match self {
             Self::TooLittle => {
-                ("видно слишком мало, чтобы узнать место", "too little is seen to know a place by")
+                word!("too-little-seen")
             }
-            Self::Nowhere => (
-                "то, что видно, на карте ни к чему не подходит: карта неверна, или это место вне её",
-                "what is seen fits nowhere on the map: the map is wrong, or that is off the map",
-            ),
-            Self::Unsure => (
-                "то, что видно, подходит к одному месту, но уверенности в нём нет",
-                "what is seen fits one place, but that is not sure",
-            ),
+            Self::Nowhere => word!("fits-nowhere"),
+            Self::Unsure => word!("fits-one"),
             Self::TooMany(least) => {
                 // One that slides along a corridor is as many as one likes.
-                let at_least = match (least > 1, language) {
-                    (false, _) => String::new(),
-                    (true, Language::Russian) => format!(" (не меньше {least})"),
-                    (true, Language::English) => format!(" (at least {least})"),
+                let at_least = match least > 1 {
+                    true => told!(language, "at-least", least),
+                    false => String::new(),
                 };
-                return match language {
-                    Language::Russian => format!(
-                        "то, что видно, подходит к слишком многим местам{at_least}: чтобы узнать место, надо проехать дальше"
-                    ),
-                    Language::English => format!(
-                        "what is seen fits too many places{at_least}: it takes driving on to know which"
-                    ),
-                };
+                return told!(language, "fits-too-many", at_least);
             }
         };
-        language.pick(russian, english).to_owned()
+        why.say(language).into_owned()
     }
 }
 
@@ -223,16 +209,13 @@ impl FoundScan {
 
     /// What was remarkable about the step to it, where anything was.
     #[must_use]
-    pub fn event_in_words(&self, language: Language) -> Option<&'static str> {
-        let (russian, english) = match self.event? {
+    pub fn event_in_words(&self, language: Language) -> Option<String> {
+        let event = match self.event? {
             // Why a place is not told stands in its stead.
             Event::Steady | Event::Lost => return None,
-            Event::Narrowed => ("мест стало меньше", "fewer places are left"),
-            Event::GivenUp => (
-                "прежнее не подходит: робот перенесён, или одометрия солгала",
-                "what was believed does not fit: carried off, or the odometry lied",
-            ),
+            Event::Narrowed => word!("fewer-places-left"),
+            Event::GivenUp => word!("belief-given-up"),
         };
-        Some(language.pick(russian, english))
+        Some(event.say(language).into_owned())
     }
 }

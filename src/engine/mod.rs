@@ -113,7 +113,7 @@ pub use journey::Journey;
 pub use json::TaskEvents;
 pub use localisation::{FoundPose, FoundScan};
 pub use located::End;
-pub(crate) use narration::{counted_in_english, decimal, plan_in_words};
+pub(crate) use narration::{decimal, plan_in_words};
 pub use observe::{Believed, Source, Station};
 use plan::steps;
 pub use plan::{PlanAnswer, PlanStep};

@@ -5,11 +5,11 @@
 use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::language::question::{Answer, Memory};
-use crate::language::words::english;
 use crate::map::{Entity, World};
 use crate::robot::{Directive, Solved};
 use crate::semantics::predicate;
 use crate::strips::{OperatorId, Said, Wording};
+use crate::units::told;
 
 use super::assumed::assumptions_in_russian;
 use super::directive_words::{actions_in_words, directive_in_words, goal_in_words, name_in};
@@ -18,8 +18,8 @@ use super::task::{Progress, TaskAnswer, TaskEnding};
 use super::{Error, State};
 
 /// What is said to "Stop" where nothing is under way.
-pub(super) fn nothing_to_stop(language: Language) -> &'static str {
-    language.pick("Стою: ничего не выполняется.", "I stand still: nothing is under way.")
+pub(super) fn nothing_to_stop(language: Language) -> String {
+    told!(language, "i-stand-still")
 }
 
 /// A plan as the paper prints it, one directive a line, parallel ones under one number; by the phrases of the rules
@@ -40,7 +40,6 @@ fn plan_of(
     assumed: &[String],
     wording: &Wording<'_>,
 ) -> String {
-    let pick = |russian, english| wording.language.pick(russian, english);
     // What was given up before it began knows no plan, and one of no steps would be an answer.
     let is_found = match solved.outcome {
         Outcome::Plan(_) => true,
@@ -49,54 +48,41 @@ fn plan_of(
     };
     if !is_found {
         let head = match solved.outcome {
-            Outcome::LimitReached(_) => pick("План не найден", "No plan was found"),
-            _ if solved.is_of_whole_actions => pick(
-                "Плана из целых действий, одного за другим, нет, и это доказано; такой, где одно идёт внутри другого, не искался",
-                "There is no plan of whole actions, one after another; this is proven. One in which an action goes on within another was not sought",
-            ),
-            _ => pick("Плана нет, и это доказано", "There is no plan; this is proven"),
+            Outcome::LimitReached(_) => told!(wording.language, "no-plan-was-found"),
+            _ if solved.is_of_whole_actions => told!(wording.language, "no-plan-of-whole-actions"),
+            _ => told!(wording.language, "no-plan-proven"),
         };
         return format!("{head}: {}", solved.explanation_with(wording).unwrap_or_default());
     }
     let wishes = solved.wishes.as_ref().map(|wishes| wishes.in_words(wording.language));
     if steps.is_empty() {
-        let held = pick("Цель уже достигнута.", "The goal holds already.");
+        let held = told!(wording.language, "the-goal-holds-already");
         return wishes.map_or_else(|| held.to_owned(), |wishes| format!("{held}\n{wishes}"));
     }
     let actions: usize = steps.iter().map(Vec::len).sum();
     let is_proven = solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_));
     let shown = |hundredths: u64| {
         let seconds = hundredths as f64 / 100.0;
-        decimal(seconds, pick("с", "s"), wording.language)
+        decimal(seconds, &told!(wording.language, "s"), wording.language)
     };
     let driven = solved.time.map(|time| (shown(time.takes), shown(time.at_least), time.is_least()));
     let proof = match is_proven {
-        true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
-        false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
+        true => told!(wording.language, "fewer-steps-are-proven-impossible"),
+        false => told!(wording.language, "shortest-unproven"),
     };
     // Where the search was given up, what is known is told below.
     let at_least = match (&solved.outcome, solved.at_least) {
-        (Outcome::Plan(_), least @ 1..) if !is_proven => wording.language.pick(
-            format!("; доказано, что шагов нужно не меньше {least}"),
-            format!("; proven: at least {} needed", english::count(least as u64, "step is")),
-        ),
+        (Outcome::Plan(_), least @ 1..) if !is_proven => {
+            told!(wording.language, "proven-at-least", least)
+        }
         _ => String::new(),
     };
-    let russian = format!("План: шагов {}, действий {actions}", steps.len());
-    let english = format!("Plan: {}", counted_in_english(steps.len(), actions));
+    let language = wording.language;
+    let plan = told!(language, "plan-of", steps = steps.len(), actions);
     let mut text = match &driven {
-        None => wording.language.pick(
-            format!("{russian}; {proof}{at_least}."),
-            format!("{english}; {proof}{at_least}."),
-        ),
-        Some((takes, _, true)) => wording.language.pick(
-            format!("{russian}, {takes} в пути; быстрее нельзя, это доказано."),
-            format!("{english}, {takes} to drive; a quicker one is proven impossible."),
-        ),
-        Some((takes, least, false)) => wording.language.pick(
-            format!("{russian}, {takes} в пути; доказано, что быстрее {least} нельзя."),
-            format!("{english}, {takes} to drive; proven: none takes less than {least}."),
-        ),
+        None => format!("{plan}; {proof}{at_least}."),
+        Some((takes, _, true)) => told!(language, "plan-quickest", plan, takes),
+        Some((takes, least, false)) => told!(language, "plan-driven", plan, takes, least),
     };
     if let Some(wishes) = wishes {
         text = format!("{text}\n{wishes}");
@@ -111,7 +97,7 @@ fn plan_of(
         text.push_str(&format!("\n{open}"));
     }
     if !solved.assumptions.is_empty() {
-        let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");
+        let head = told!(wording.language, "it-rests-on-the-assumptions");
         let told = assumed.join("\n     ");
         text.push_str(&format!("\n{head}\n     {told}"));
     }
@@ -122,15 +108,8 @@ fn plan_of(
 pub(super) fn left_open(solved: &Solved, wording: &Wording<'_>) -> Option<String> {
     let is_open = matches!(solved.outcome, Outcome::LimitReached(_)) && solved.time.is_none();
     let known = solved.explanation_with(wording).filter(|_| is_open)?;
-    let head = wording.language.pick("Это не ответ до конца: ", "This is no full answer: ");
+    let head = told!(wording.language, "this-is-no-full-answer");
     Some(format!("{head}{known}"))
-}
-
-/// "1 step, 2 actions"
-#[must_use]
-pub(crate) fn counted_in_english(steps: usize, actions: usize) -> String {
-    let count = |number: usize, noun| english::count(number as u64, noun);
-    format!("{}, {}", count(steps, "step"), count(actions, "action"))
 }
 
 /// A number with one decimal, its mark as the language has it.
@@ -160,12 +139,13 @@ impl Progress<'_> {
                 };
                 vec![format!("{}\n", plan_of(&planned.solved, &steps, &assumed, &wording))]
             }
-            Self::Started { .. } | Self::Sent { .. } | Self::Moved(_) | Self::Scanned(_) => Vec::new(),
+            Self::Started { .. } | Self::Sent { .. } | Self::Moved(_) | Self::Scanned(_) => {
+                Vec::new()
+            }
             Self::Finished(report) => {
-                let way = decimal(report.length / 100.0, language.pick("м", "m"), language);
-                let way =
-                    if report.points.is_empty() { String::new() } else { format!("{way}, ") };
-                let time = decimal(report.seconds, language.pick("с", "s"), language);
+                let way = decimal(report.length / 100.0, &told!(language, "metres"), language);
+                let way = if report.points.is_empty() { String::new() } else { format!("{way}, ") };
+                let time = decimal(report.seconds, &told!(language, "s"), language);
                 let mut lines = vec![format!(
                     "{:>4} {} – {way}{time}",
                     format!("{}.", report.number),
@@ -178,18 +158,13 @@ impl Progress<'_> {
             }
             Self::Barred { barred, .. } => vec![
                 format!("   ? {}", barred_in_words(world, barred, language)),
-                language
-                    .pick(
-                        "     Не обойти и не сдвинуть: зову оператора.",
-                        "     No way leads round it, and it is not to be pushed: I call the operator.",
-                    )
-                    .to_owned(),
+                told!(language, "no-way-round"),
             ],
             Self::Surprised { directive, surprise } => {
                 let what = surprise_in_words(world, surprise, language);
                 vec![
                     format!("   ! {}: {what}", directive_in_words(world, directive, language)),
-                    language.pick("     Новый план.", "     Planning anew.").to_owned(),
+                    told!(language, "planning-anew"),
                 ]
             }
         }
@@ -236,8 +211,7 @@ impl State {
             // Where nothing leads at all, that is the reason; the rules would only say it in more words.
             let apart = self.unconnected_in_words(answer, language);
             if !apart.is_empty() {
-                let head = language
-                    .pick("Плана нет, и это доказано.", "There is no plan; this is proven.");
+                let head = told!(language, "there-is-no-plan-this");
                 return Ok(format!("{head} {}", apart.join(" ")));
             }
         }
@@ -253,7 +227,7 @@ impl State {
         }
         told.extend(places);
         let mut told = told.join(" ");
-        let left = language.pick("Оставлено на месте", "Left where it is");
+        let left = told!(language, "left-where-it-is");
         let lying = self.places_of(answer.lying.iter(), language)?;
         // That it is so would be untrue of what lies inside and was to be put on top.
         if is_so && !lying.is_empty() {
@@ -273,11 +247,11 @@ impl State {
     ) -> Result<Vec<String>, Error> {
         let mut places = Vec::new();
         for name in names {
-            let shown = name_in(self.world()?, name, language);
-            let question = match language {
-                Language::Russian => format!("Где {name}?"),
-                Language::English => format!("Where is {shown}?"),
+            let name = match language {
+                Language::Russian => name.clone(),
+                Language::English => name_in(self.world()?, name, language),
             };
+            let question = told!(language, "where-is", name);
             places
                 .extend(self.ask(&question, &mut Memory::default())?.ok().map(|found| found.text));
         }
@@ -304,29 +278,22 @@ fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
     let length = answer.reports.iter().map(|r| r.length).sum::<f64>() / 100.0;
     let spent = format!(
         "{}, {}",
-        decimal(length, language.pick("м", "m"), language),
-        decimal(answer.seconds, language.pick("с", "s"), language)
+        decimal(length, &told!(language, "metres"), language),
+        decimal(answer.seconds, &told!(language, "s"), language)
     );
     let mut told = match &answer.ending {
-        TaskEnding::Done => match language {
-            Language::Russian => format!("\nСделано: {spent}."),
-            Language::English => format!("\nDone: {spent}."),
-        },
+        TaskEnding::Done => told!(language, "done-spent", spent),
         ending => unfinished(world, ending, answer, language),
     };
     for (thing, sure) in &answer.unsure {
         let name = name_in(world, world.name(Entity::Replica(*thing)), language);
         let percent = (sure * 100.0).round();
-        told.push_str(&match language {
-            Language::Russian => format!(
-                "\nГде {name}, я не был уверен (уверенность {percent:.0} %), поэтому сначала искал."
-            ),
-            Language::English => {
-                format!(
-                    "\nI was not sure where {name} was ({percent:.0}% sure), so I looked first."
-                )
-            }
-        });
+        told.push_str(&told!(
+            language,
+            "was-unsure-where",
+            name,
+            percent = format!("{percent:.0}")
+        ));
     }
     for (goal, ending) in &answer.left {
         let thing = goal.args.first().map(|name| name_in(world, name, language));
@@ -335,30 +302,20 @@ fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
             told.push_str(&format!("\n{why}"));
             continue;
         }
-        let stays = language.pick("осталось не на месте", "is not in its place");
+        let stays = told!(language, "is-not-in-place");
         told.push_str(&format!("\n{} {stays}. {why}", thing.unwrap_or_default()));
     }
     if answer.others_done {
         told.push('\n');
-        told.push_str(language.pick("Остальное сделано.", "The rest is done."));
+        told.push_str(&told!(language, "the-rest-is-done"));
     }
     for thing in &answer.strays {
         let thing = name_in(world, thing, language);
-        told.push_str(&match language {
-            Language::Russian => {
-                format!("\nНеизвестно, где место для «{thing}»: оставлено там, где лежит.")
-            }
-            Language::English => {
-                format!("\nIt is not known where {thing} belongs: it stays where it is.")
-            }
-        });
+        told.push_str(&told!(language, "homeless", thing));
     }
     for (thing, home) in &answer.kept {
         let (thing, home) = (name_in(world, thing, language), name_in(world, home, language));
-        told.push_str(&match language {
-            Language::Russian => format!("\n«{thing}» лежит там, где и хранится: «{home}»."),
-            Language::English => format!("\n{thing} lies where it is kept: {home}."),
-        });
+        told.push_str(&told!(language, "lies-at-home", thing, home));
     }
     // A door is asked for from both of its sides.
     let mut rest: Vec<String> = Vec::new();
@@ -369,7 +326,7 @@ fn ending(world: &World, answer: &TaskAnswer, language: Language) -> String {
         }
     }
     if !rest.is_empty() {
-        let head = language.pick("Не начато", "Not begun");
+        let head = told!(language, "not-begun-rest");
         told.push_str(&format!("\n{head}: {}.", rest.join("; ")));
     }
     told
@@ -384,17 +341,12 @@ fn unfinished(
     match ending {
         TaskEnding::Done | TaskEnding::AlreadyTrue => match &answer.reported {
             Some(position) => position.say(language),
-            None if answer.stops => nothing_to_stop(language).to_owned(),
-            None if !answer.strays.is_empty() || !answer.kept.is_empty() => language
-                .pick("Больше убирать нечего.", "Nothing else is to be put away.")
-                .to_owned(),
-            None if answer.tidies => {
-                let kept = "Всё уже на своих местах: там, где хранится или было на карте.";
-                let english =
-                    "Everything is in its place already: where it is kept, or was surveyed.";
-                language.pick(kept, english).to_owned()
+            None if answer.stops => nothing_to_stop(language),
+            None if !answer.strays.is_empty() || !answer.kept.is_empty() => {
+                told!(language, "nothing-else-is-to-be")
             }
-            None => language.pick("Так уже и есть.", "It is so already.").to_owned(),
+            None if answer.tidies => told!(language, "all-in-place"),
+            None => told!(language, "it-is-so-already"),
         },
         TaskEnding::NoPlan(planned) => {
             let name = |name: &str| name_in(world, name, language);
@@ -402,17 +354,17 @@ fn unfinished(
         }
         TaskEnding::Stuck(surprise) => {
             let what = surprise_in_words(world, surprise, language);
-            format!("{}: {what}.", language.pick("Не выходит", "Stuck"))
+            format!("{}: {what}.", told!(language, "stuck"))
         }
         TaskEnding::Stopped => {
-            let stopped = language.pick("Остановлено.", "Stopped.");
+            let stopped = told!(language, "stopped");
             match &answer.reported {
                 Some(position) => format!("{stopped} {}", position.say(language)),
                 None => stopped.to_owned(),
             }
         }
         TaskEnding::Failed(failure) => {
-            let broken_off = language.pick("Задание прервано", "The task was broken off");
+            let broken_off = told!(language, "the-task-was-broken-off");
             format!("{broken_off}: {}.", failure.say(language))
         }
     }

@@ -11,7 +11,7 @@ use crate::map::is_on;
 use crate::robot::starting_pose;
 use crate::sensing::{Chart, Fit, Move, telling_move};
 use crate::store::{FoundAt, Observation, Timestamp};
-use crate::units::{Lengths, MapId, ReplicaId};
+use crate::units::{Lengths, MapId, ReplicaId, told, word};
 
 use super::memory::ROBOT;
 use super::obstacles::is_obstacle;
@@ -101,19 +101,9 @@ impl State {
                     return Ok(None);
                 };
                 let place = self.place_in_words(map, pose, language)?;
-                let how = match (memory.pose.is_some(), language) {
-                    (true, Language::Russian) => {
-                        "это известно по последнему заданию или со слов; лазером я этого не проверял"
-                    }
-                    (false, Language::Russian) => {
-                        "это место, с которого я начинаю по карте; сам я этого не проверял"
-                    }
-                    (true, Language::English) => {
-                        "that is known from the last task or by word; I have not checked it by laser"
-                    }
-                    (false, Language::English) => {
-                        "that is where the map lets me begin; I have not checked it myself"
-                    }
+                let how = match memory.pose.is_some() {
+                    true => told!(language, "known-by-word"),
+                    false => told!(language, "known-by-map"),
                 };
                 Ok(place.map(|place| format!("{} {how}", with_stop(&place))))
             }
@@ -129,14 +119,7 @@ impl State {
         let share = (found.explained * 100.0).round();
         let turn = decimal(turn.max(0.1), "°", language);
         let place = with_stop(&place);
-        Ok(Some(match language {
-            Language::Russian => format!(
-                "{place} я знаю это с точностью до {off} и {turn}: с картой сходится {share} % того, что видит лазер, и больше нигде это не подходит"
-            ),
-            Language::English => format!(
-                "{place} I know it to within {off} and {turn}: {share} % of what the laser sees agrees with the map, and it fits nowhere else"
-            ),
-        }))
+        Ok(Some(told!(language, "known-within", place, off, turn, share)))
     }
 
     /// «либо в Комнате-В, либо в Комнате-Y; различить поможет …»
@@ -145,10 +128,7 @@ impl State {
         for at in found {
             if let Some(place) = self.place_in_words(at.map, at.pose, language)? {
                 let place = place.trim_end_matches('.');
-                let place = match language {
-                    Language::Russian => place.trim_start_matches("Я нахожусь "),
-                    Language::English => place.trim_start_matches("I am "),
-                };
+                let place = place.trim_start_matches(&*word!("i-am").say(language));
                 if !places.iter().any(|known| known == place) {
                     places.push(place.to_owned());
                 }
@@ -156,44 +136,24 @@ impl State {
         }
         let more = places.len().saturating_sub(TOLD);
         places.truncate(TOLD);
-        let either = match language {
-            Language::Russian => "либо ",
-            Language::English => "either ",
-        };
-        let mut text = match (places.len(), language) {
-            (0 | 1, Language::Russian) => {
+        let count = found.len();
+        let mut text = match places.len() {
+            0 | 1 => {
                 let place = places.first().cloned().unwrap_or_default();
-                format!("не уверен: {place}, но где именно, подходит мест: {}", found.len())
+                told!(language, "unsure-of-the-pose", place, count)
             }
-            (0 | 1, Language::English) => {
-                let place = places.first().cloned().unwrap_or_default();
-                format!("I am not sure: {place}, but {} poses there fit", found.len())
-            }
-            (_, Language::Russian) => {
-                format!("не уверен: я {either}{}", places.join(", либо "))
-            }
-            (_, Language::English) => {
-                format!("I am not sure: I am {either}{}", places.join(", or "))
+            _ => {
+                let places = places.join(&word!("or-else").say(language));
+                told!(language, "unsure-of-the-place", places)
             }
         };
         if more > 0 {
-            text += &match language {
-                Language::Russian => format!(" (и ещё мест: {more})"),
-                Language::English => format!(" (and {more} more)"),
-            };
+            text += &told!(language, "and-more-more", more);
         }
         let about = self.relations()?.thresholds().turn_about;
         let told = self.telling_move(found)?.map_or_else(
-            || {
-                let none = ("ни один короткий ход этого не прояснит", "no short move would tell");
-                language.pick(none.0, none.1).to_owned()
-            },
-            |by| match language {
-                Language::Russian => {
-                    format!("различить поможет {}", move_in_words(by, about, language))
-                }
-                Language::English => format!("to tell, {}", move_in_words(by, about, language)),
-            },
+            || told!(language, "no-move-would-tell"),
+            |by| told!(language, "to-tell", move_in_words = move_in_words(by, about, language)),
         );
         Ok(format!("{text}; {told}"))
     }
@@ -243,24 +203,15 @@ pub(super) fn move_in_words(by: Move, about: f64, language: Language) -> String 
     let mut steps = Vec::new();
     if degrees >= 1.0 {
         let left = by.turn > 0.0;
-        steps.push(match (degrees >= about, left, language) {
-            (true, _, Language::Russian) => "развернуться".to_owned(),
-            (true, _, Language::English) => "turn round".to_owned(),
-            (_, true, Language::Russian) => format!("повернуться на {degrees}° налево"),
-            (_, false, Language::Russian) => format!("повернуться на {degrees}° направо"),
-            (_, true, Language::English) => format!("turn {degrees}° to the left"),
-            (_, false, Language::English) => format!("turn {degrees}° to the right"),
+        steps.push(match (degrees >= about, left) {
+            (true, _) => told!(language, "turn-round"),
+            (_, true) => told!(language, "turn-left", degrees),
+            (_, false) => told!(language, "turn-right", degrees),
         });
     }
     if by.ahead > 0.0 {
-        steps.push(match language {
-            Language::Russian => {
-                format!("проехать {} вперёд", decimal(by.ahead / 100.0, "м", language))
-            }
-            Language::English => {
-                format!("drive {} ahead", decimal(by.ahead / 100.0, "m", language))
-            }
-        });
+        let far = decimal(by.ahead / 100.0, "", language);
+        steps.push(told!(language, "drive-ahead", far = far.trim_end()));
     }
     enumerate(&steps, language)
 }

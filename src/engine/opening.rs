@@ -9,7 +9,7 @@ use crate::geometry::{DoorStates, FloorPlan, Leg, Method, NoWay, Target};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{DoorKind, DoorState, DoorStatus, Entity, World};
 use crate::semantics::lifts;
-use crate::units::{AreaId, DoorId, Gather as _, MapId, Point};
+use crate::units::{AreaId, DoorId, Gather as _, MapId, Point, told};
 
 use super::known::Known;
 use super::lexicon::named;
@@ -142,9 +142,6 @@ impl Journey {
         let name =
             |door: &DoorId| named(world, Entity::Door(*door)).form(Case::Accusative, language);
         let doors = enumerate(&self.opens.iter().map(name).collect::<Vec<_>>(), language);
-        match language {
-            Language::Russian => format!("По пути нужно открыть {doors} (закрыто не на замок)."),
-            Language::English => format!("On the way {doors} must be opened (closed, not locked)."),
-        }
+        told!(language, "opens-on-the-way", doors)
     }
 }

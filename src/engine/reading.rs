@@ -11,7 +11,7 @@ use crate::language::report::read::{
 use crate::language::report::{Beside, OpeningKind};
 use crate::map::{Entity, World};
 use crate::semantics::{Claim, Faced, Relations, Way, claim_bounds, claim_holds, faced};
-use crate::units::{AreaId, Bilingual, Deg, MapId, OpeningId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Bilingual, Deg, MapId, OpeningId, Point, Pose, ReplicaId, said, word};
 
 use super::error::{both, in_both};
 use super::lexicon::named;
@@ -46,19 +46,14 @@ impl State {
             RequestError::NoReport { text: shown(text), word: shown(&text[unread.at]) }
         })?;
         if said.is_off_the_map() {
-            let reason =
-                ("сказано, что робот вне карты", "it is said that the robot is off the map").into();
+            let reason = said!("it-is-said-that-the");
             return Err(RequestError::NoSuchPlace { reason }.into());
         }
         let mut regions = regions(self.relations()?, &said)?;
         match (regions.pop(), regions.is_empty()) {
             (Some(only), true) => Ok(only),
             (None, _) => {
-                let reason = (
-                    "помещения, двери и вещи доклада не стоят так",
-                    "the rooms, doors and things of the report do not stand so",
-                )
-                    .into();
+                let reason = word!("place-not-found").into();
                 Err(RequestError::NoSuchPlace { reason }.into())
             }
             (Some(last), false) => {
@@ -231,11 +226,7 @@ fn claims(
             return Ok(things.map(claim).collect());
         }
         Some(SaidSpot::Object(..)) => {
-            let reason = (
-                "стороны вещи не измерены как области; бывает «рядом с …»",
-                "the sides of a thing are not measured as regions; there is “next to …”",
-            )
-                .into();
+            let reason = word!("sides-unknown").into();
             return Err(RequestError::NoSuchPlace { reason }.into());
         }
         Some(SaidSpot::InCorner(_)) => Claim::InCorner,

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Method, NoRoute, Passed, PassframeId, Route};
 use crate::map::Entity;
-use crate::units::{AreaId, Bilingual, Deg, MapId, Point, Pose, bilingual};
+use crate::units::{AreaId, Bilingual, Deg, MapId, Point, Pose, said};
 
 use super::located::{End, Located};
 use super::{Error, RequestError, State};
@@ -87,19 +87,12 @@ impl State {
             .split(',')
             .map(|part| part.trim().parse::<f64>())
             .collect::<Result<_, _>>()
-            .map_err(|e| {
-                bad(bilingual!(
-                    "нужны числа через запятую ({e})",
-                    "numbers divided by commas are needed ({e})"
-                ))
-            })?;
+            .map_err(|e| bad(said!("numbers-wanted", reason = e.to_string())))?;
         let (x, y, heading) = match numbers[..] {
             [x, y] => (x, y, 0.0),
             [x, y, heading] => (x, y, heading),
             _ => {
-                return Err(bad(
-                    ("нужны два или три числа", "two or three numbers are needed").into()
-                ));
+                return Err(bad(said!("two-or-three-numbers")));
             }
         };
         let length =

@@ -10,7 +10,7 @@ use crate::robot::{Belief, GoalFact, Station, Vehicle};
 use crate::semantics::planning::InitialFact;
 use crate::semantics::predicate;
 use crate::strips::{RuleError, RuleFault, RuleFaults, Scenario};
-use crate::units::{Bilingual, ReplicaId, Stop, name_key};
+use crate::units::{Bilingual, ReplicaId, Stop, name_key, said};
 
 use super::task::{Errand, Progress, TaskAnswer};
 use super::{Error, State};
@@ -201,17 +201,11 @@ impl Known {
         if name_key(predicate) == name_key(predicate::ROBOT_AT_PLACE)
             && let Station::Place(here) = &belief.station
         {
-            let place = args.first().map_or("МЕСТО", String::as_str);
-            return Some(Bilingual::new(
-                format!("робот стоит в «{here}»; поставьте его: --from «{place}», или --reset"),
-                format!("the robot stands at “{here}”; place it: --from “{place}”, or --reset"),
-            ));
+            let place = args.first().map_or_else(|| said!("a-place"), |place| place.clone().into());
+            return Some(said!("robot-stands-at", here, place));
         }
         if let Some(unknown) = args.iter().find(|arg| !self.knows(arg)) {
-            return Some(Bilingual::new(
-                format!("на карте нет «{unknown}»; факты карты: ortho plan --facts"),
-                format!("the map has no “{unknown}”; its facts: ortho plan --facts"),
-            ));
+            return Some(said!("map-has-not", unknown));
         }
         let names: Vec<String> = args.iter().map(|arg| name_key(arg)).collect();
         let of_same = self.facts.iter().find(|fact| {
@@ -230,14 +224,8 @@ impl Known {
         };
         let told = of_same.or_else(alike).map(written);
         Some(match told {
-            Some(fact) => Bilingual::new(
-                format!("робот считает иначе: {fact}"),
-                format!("the robot believes: {fact}"),
-            ),
-            None => Bilingual::new(
-                "уберите это из сценария; факты карты: ortho plan --facts",
-                "leave it out of the scenario; the map's facts: ortho plan --facts",
-            ),
+            Some(fact) => said!("the-robot-believes", fact),
+            None => said!("leave-it-out"),
         })
     }
 }
@@ -248,12 +236,9 @@ fn written(fact: &InitialFact) -> String {
 }
 
 fn not_driven() -> Bilingual {
-    Bilingual::new(
-        "целью может быть, где робот, что у него в руке, где вещи, каковы двери и приборы, что найдено и кто позван; отрицаний среди целей нет",
-        "a goal may be where the robot is, what it holds, where things are, how doors and devices are, what is found and who is called; none is negated",
-    )
+    said!("what-a-goal-may-be")
 }
 
 fn not_on_map() -> Bilingual {
-    Bilingual::new("на карте нет такого имени", "the map has no such name")
+    said!("no-such-name")
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::draw::{SeenDrawing, SeenSegment, SeenSign, TreeNode, seen_svg, tree_svg};
 use crate::language::Language;
 use crate::units::{
-    Deg, FileFault, InOrder as _, Lengths, Point, Pose, Vector, is_input, read_file,
+    Deg, FileFault, InOrder as _, Lengths, Point, Pose, Vector, is_input, read_file, told, word,
 };
 use crate::vectors::picture::Picture;
 use crate::vectors::read::{LONGEST, Log, LogError, Scan, read_log, unpacked};
@@ -266,7 +266,7 @@ impl View {
         let title = if self.is_picture {
             self.name.clone()
         } else {
-            format!("{}: {} {}", self.name, language.pick("скан", "scan"), self.scan)
+            format!("{}: {} {}", self.name, told!(language, "scan-word"), self.scan)
         };
         seen_svg(&SeenDrawing {
             title,
@@ -291,7 +291,7 @@ impl Things {
         }
         let count = self.scene.things().len();
         seen_svg(&SeenDrawing {
-            title: format!("{}: {} {count}", self.name, language.pick("вещей", "things:")),
+            title: format!("{}: {} {count}", self.name, told!(language, "things")),
             segments,
             scale: scale(self.is_picture, language),
             signs: signs(language),
@@ -324,7 +324,7 @@ impl Changes {
         let before = self.before.segments.iter().map(|s| drawn(s, None, true));
         let after = self.after.segments.iter().zip(&group).map(|(s, g)| drawn(s, *g, false));
         let scans = (self.before.scan, self.after.scan);
-        let word = language.pick("сканы", "scans");
+        let word = told!(language, "scans");
         seen_svg(&SeenDrawing {
             title: format!("{}: {word} {} → {}", self.before.name, scans.0, scans.1),
             segments: before.chain(after).collect(),
@@ -345,22 +345,22 @@ fn drawn(segment: &Segment<2>, group: Option<usize>, is_before: bool) -> SeenSeg
 
 fn scale(is_picture: bool, language: Language) -> Option<(f64, String)> {
     Some(if is_picture {
-        (100.0, language.pick("100 точек", "100 pixels").to_owned())
+        (100.0, told!(language, "pixels"))
     } else {
-        (100.0, language.pick("1 м", "1 m").to_owned())
+        (100.0, told!(language, "one-metre"))
     })
 }
 
 fn signs(language: Language) -> Vec<(SeenSign, String)> {
     [
-        (SeenSign::Return, "отражение луча", "return of a beam"),
-        (SeenSign::TrueEnd, "конец самой вещи", "end of the thing itself"),
-        (SeenSign::CutEnd, "дальше не видно", "more is not seen"),
-        (SeenSign::Observer, "наблюдатель", "observer"),
-        (SeenSign::Before, "было", "before"),
-        (SeenSign::Moved, "сдвинулось само", "moved by itself"),
+        (SeenSign::Return, word!("sign-return")),
+        (SeenSign::TrueEnd, word!("sign-true-end")),
+        (SeenSign::CutEnd, word!("sign-cut-end")),
+        (SeenSign::Observer, word!("sign-observer")),
+        (SeenSign::Before, word!("sign-before")),
+        (SeenSign::Moved, word!("sign-moved")),
     ]
-    .map(|(sign, russian, english)| (sign, language.pick(russian, english).to_owned()))
+    .map(|(sign, word)| (sign, word.say(language).into_owned()))
     .to_vec()
 }
 
@@ -378,25 +378,25 @@ fn branch(node: &Branch<2>, language: Language) -> TreeNode {
         order.iter().take(most).map(|child| branch(child, language)).collect();
     if order.len() > most {
         let rest = order.len() - most;
-        let line = format!("… {} {rest}", language.pick("и ещё", "and"));
+        let line = format!("… {} {rest}", told!(language, "and-more-things"));
         below.push(TreeNode { lines: vec![line], ..TreeNode::default() });
     }
     let place = |v: &Vector| Lengths::said().point(v.x, v.y, 0);
     let framed = |name: String, v: &Vector| vec![name, place(v)];
     let lines = match &node.node {
-        Node::Robot => vec![language.pick("Робот", "Robot").to_owned()],
-        Node::Scene => vec![language.pick("Сцена", "Scene").to_owned()],
+        Node::Robot => vec![told!(language, "robot")],
+        Node::Scene => vec![told!(language, "scene")],
         Node::Thing(id, frame) => {
-            let name = format!("{} {}", language.pick("вещь", "thing"), id.0);
+            let name = format!("{} {}", told!(language, "thing"), id.0);
             framed(name, &frame.translation.vector)
         }
         Node::Part(k, frame) => {
-            let name = format!("{} {k}", language.pick("часть", "part"));
+            let name = format!("{} {k}", told!(language, "part"));
             framed(name, &frame.translation.vector)
         }
         Node::Segment(k, s) => {
             let length = Lengths::said().told(s.length(), 1, language);
-            vec![format!("{} {k}", language.pick("отрезок", "segment")), length]
+            vec![format!("{} {k}", told!(language, "segment")), length]
         }
     };
     TreeNode { lines, below, is_same: matches!(node.node, Node::Scene) }

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Blocker, Eye, Face, FaceInView, FaceKind};
 use crate::map::{Entity, Item, World};
-use crate::units::{Language, MapId};
+use crate::units::{Language, MapId, told};
 
 use super::lexicon::named;
 use super::{Error, Lens, State};
@@ -30,11 +30,11 @@ pub(crate) fn face_in_words(world: &World, face: &Face, language: Language) -> S
         let Some(item) = items.get(item) else { return name(owner) };
         let orthoframe = world.orthoframe_of(item);
         let side = match face.kind {
-            FaceKind::Roof => language.pick("верх", "top").to_owned(),
-            FaceKind::Base => language.pick("низ", "underside").to_owned(),
+            FaceKind::Roof => told!(language, "top"),
+            FaceKind::Base => told!(language, "underside"),
             FaceKind::Side(side) => match orthoframe.base.get(side) {
                 Some(vector) if !vector.names.is_empty() => vector.names.join(", "),
-                Some(vector) => format!("{} {}", language.pick("сторона", "side"), vector.id),
+                Some(vector) => format!("{} {}", told!(language, "side"), vector.id),
                 None => String::new(),
             },
         };
@@ -46,7 +46,7 @@ pub(crate) fn face_in_words(world: &World, face: &Face, language: Language) -> S
         }
     };
     let leaf = |owner: Entity, leaf: usize| {
-        format!("{}, {} {}", name(owner), language.pick("створка", "leaf"), leaf + 1)
+        format!("{}, {} {}", name(owner), told!(language, "leaf"), leaf + 1)
     };
     match face.blocker {
         Blocker::Replica { replica, item } => match world.replicas.get(&replica) {
@@ -57,7 +57,7 @@ pub(crate) fn face_in_words(world: &World, face: &Face, language: Language) -> S
             of(Entity::Area(area), world.areas.get(&area).map_or(&[][..], |a| &a.items), item)
         }
         Blocker::Floor { area, .. } => {
-            format!("{}: {}", name(Entity::Area(area)), language.pick("пол", "floor"))
+            format!("{}: {}", name(Entity::Area(area)), told!(language, "floor"))
         }
         Blocker::Zone { zone } => name(Entity::Zone(zone)),
         Blocker::DoorLeaf { door, leaf: number } => leaf(Entity::Door(door), number),

@@ -6,7 +6,7 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::map::{Entity, World};
 use crate::sensing::{Belief, Bound, Chart, Localiser, Operative, Options};
-use crate::units::{InOrder as _, MapId, Point, Pose};
+use crate::units::{InOrder as _, MapId, Point, Pose, told};
 
 use super::{Drawing, Error, RequestError, Sighted, State};
 
@@ -96,9 +96,8 @@ impl State {
             }
         }
         let fragment = seen.operative.plan().fragments().next();
-        let pick = |russian: &str, english: &str| language.pick(russian, english).to_owned();
         let drawing = SightDrawing {
-            title: pick("Оперативная модель", "Operative model"),
+            title: told!(language, "operative-model"),
             passframes: seen
                 .operative
                 .passframes()
@@ -116,23 +115,11 @@ impl State {
             robot: seen.pose,
             radius: world.robot.radius.get(),
             legend: vec![
-                (
-                    SightSign::Passframe,
-                    pick("Пассфрейм видимого пола", "Passframe of the seen floor"),
-                ),
-                (
-                    SightSign::DeadZone,
-                    pick("робот здесь не помещается", "the robot does not fit here"),
-                ),
-                (
-                    SightSign::Line(SightLine::Known),
-                    pick("грань, которая есть на карте", "face that the map has"),
-                ),
-                (
-                    SightSign::Line(SightLine::Unknown),
-                    pick("грань, которой на карте нет", "face that the map has not"),
-                ),
-                (SightSign::Line(SightLine::End), pick("граница видимости", "end of sight")),
+                (SightSign::Passframe, told!(language, "sign-passframe")),
+                (SightSign::DeadZone, told!(language, "sign-dead-zone")),
+                (SightSign::Line(SightLine::Known), told!(language, "sign-known-face")),
+                (SightSign::Line(SightLine::Unknown), told!(language, "sign-unknown-face")),
+                (SightSign::Line(SightLine::End), told!(language, "sign-end-of-sight")),
             ],
             language,
         };
@@ -160,9 +147,8 @@ fn name_of(world: &World, blocker: Blocker, language: Language) -> String {
         Blocker::Zone { zone } => Entity::Zone(zone),
     };
     let name = named(world, entity, language);
-    match (blocker, language) {
-        (Blocker::Wall { .. }, Language::Russian) => format!("стена ({name})"),
-        (Blocker::Wall { .. }, Language::English) => format!("wall ({name})"),
+    match blocker {
+        Blocker::Wall { .. } => told!(language, "wall-named", name),
         _ => name,
     }
 }

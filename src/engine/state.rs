@@ -14,8 +14,8 @@ use crate::map::{Entity, World, Zone};
 use crate::semantics::{Around, Followed, Relations, Told, robot_eye, things_in_view};
 use crate::store::{Derived, Reader, RobotMemory, Store};
 use crate::units::{
-    AreaId, Bilingual, Gather as _, MapId, Point, Pose, ReplicaId, Stop, Timestamp, bilingual,
-    nearest_name,
+    AreaId, Bilingual, Gather as _, MapId, Point, Pose, ReplicaId, Stop, Timestamp, nearest_name,
+    said, told, word,
 };
 
 use super::changes::Changes;
@@ -432,22 +432,21 @@ const NEAR_MISSES: usize = 3;
 /// «может быть, «Точка-А» или «Точка-К»?»
 fn offer(names: &[String]) -> Option<Bilingual> {
     if names.is_empty() {
-        let known = "имена: ortho relations --name СОДЕРЖИТ";
-        return Some((known, "names: ortho relations --name CONTAINS").into());
+        return Some(said!("names-of-things"));
     }
     Some(Bilingual::both(|language| {
         let quoted = names.iter().map(|name| Bilingual::quoted(name).say(language).to_owned());
         let quoted: Vec<String> = quoted.collect();
-        let (perhaps, or) = language.pick(("может быть,", " или "), ("perhaps", " or "));
-        format!("{perhaps} {}?", quoted.join(or))
+        let either = quoted.join(&word!("or").say(language));
+        told!(language, "perhaps-one-of", either)
     }))
 }
 
 fn unknown_name<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> RequestError {
     let names: Vec<&str> = names.collect();
     let help = match nearest_name(name, names.iter().copied()) {
-        Some(near) => bilingual!("может быть, «{near}»?", "perhaps “{near}”?"),
-        None => bilingual!("есть имена: {}", "there are names: {}", names.join(", ")),
+        Some(near) => said!("perhaps-near", near),
+        None => said!("there-are-names", names = names.join(", ")),
     };
     let help = Some(help);
     RequestError::UnknownName { name: name.to_owned(), help }

@@ -5,6 +5,7 @@ use crate::geometry::Remedy;
 use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, World};
 use crate::robot::{Barred, Obstruction, Refusal, Sighting, Surprise};
+use crate::units::told;
 
 use super::advice::Advice;
 use super::barriers::{no_way_in_words, thing_in_words, unknown_thing};
@@ -17,46 +18,30 @@ pub(super) fn surprise_in_words(world: &World, surprise: &Surprise, language: La
     let form = |entity: Entity, case: Case| named(world, entity).form(case, language);
     let said = |entity: Entity| form(entity, Case::Nominative);
     let in_case = |what: Obstruction, case: Case| match what {
-        Obstruction::Wall(area) => match language {
-            Language::Russian => format!("стена ({})", said(Entity::Area(area))),
-            Language::English => format!("a wall of {}", said(Entity::Area(area))),
-        },
+        Obstruction::Wall(area) => told!(language, "a-wall-of", said = said(Entity::Area(area))),
         Obstruction::Door(door) => form(Entity::Door(door), case),
         Obstruction::Replica(id) if world.replicas.contains_key(&id) => {
             form(Entity::Replica(id), case)
         }
         Obstruction::Replica(_) | Obstruction::Something => match case {
-            Case::Genitive | Case::Prepositional => language.pick("вещи", "a thing").to_owned(),
-            _ => language.pick("вещь", "a thing").to_owned(),
+            Case::Genitive | Case::Prepositional => told!(language, "a-thing-genitive"),
+            _ => told!(language, "a-thing"),
         },
     };
     let thing = |what: Obstruction| in_case(what, Case::Nominative);
-    // In Russian in a case, where the pattern asks for one.
-    let told_in = |case: Case, ru: &str, en: &str, what: Obstruction| {
-        let (pattern, name) = (language.pick(ru, en), in_case(what, case));
-        pattern.replacen("{}", &name, 1)
-    };
-    let told = |ru: &str, en: &str, what: Obstruction| told_in(Case::Nominative, ru, en, what);
+    let the = |id| thing(Obstruction::Replica(id));
+    let of = |id| in_case(Obstruction::Replica(id), Case::Genitive);
     match surprise {
         Surprise::Blocked { bump, .. } => {
-            told("путь преграждает {}", "{} is in the way", bump.against)
+            told!(language, "in-the-way", thing = thing(bump.against))
         }
-        Surprise::Displaced => language
-            .pick(
-                "робот оказался не там, где считал себя",
-                "the robot found itself elsewhere than it believed",
-            )
-            .to_owned(),
+        Surprise::Displaced => told!(language, "found-elsewhere"),
         Surprise::Noticed { seen } => {
             let what = match seen {
                 Sighting::Door { door, .. } => Obstruction::Door(*door),
                 Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
             };
-            told(
-                "по дороге видно: {} – не так, как считалось",
-                "seen on the way: {} is not as it was believed",
-                what,
-            )
+            told!(language, "seen-on-the-way", thing = thing(what))
         }
         Surprise::NoWay { to, why, remedy } => {
             let to = place_in_words(world, to, language);
@@ -64,10 +49,7 @@ pub(super) fn surprise_in_words(world: &World, surprise: &Surprise, language: La
             let Some(remedy) = remedy else { return told };
             let advice = Advice { remedy: Remedy::clone(remedy), whither: None };
             let advice = advice.in_words(world, language);
-            match language {
-                Language::Russian => format!("{told}; чтобы путь был, {advice}"),
-                Language::English => format!("{told}; for a way, {advice}"),
-            }
+            told!(language, "for-a-way", told, advice)
         }
         Surprise::NotSeen { thing, area, next, for_kin } => {
             let area = said(Entity::Area(*area));
@@ -76,97 +58,52 @@ pub(super) fn surprise_in_words(world: &World, surprise: &Surprise, language: La
                 (Some(entity), _) => form(entity, Case::Genitive),
                 (None, _) => name_in(world, thing, language),
             };
-            let seen = match language {
-                Language::Russian => format!("{area}: {thing} не видно"),
-                Language::English => format!("{thing} is not seen in {area}"),
-            };
+            let seen = told!(language, "not-seen-in", area, thing);
             let rooms: Vec<String> = next.iter().map(|area| said(Entity::Area(*area))).collect();
             let rooms = rooms.join(", ");
-            match (for_kin, language) {
-                (true, Language::Russian) => {
-                    format!("{seen}; такие вещи есть здесь: {rooms} – сначала искать там")
-                }
-                (true, Language::English) => {
-                    format!("{seen}; things of its kind are in {rooms}: there first")
-                }
-                (false, _) => seen,
+            match for_kin {
+                true => told!(language, "look-among-its-kin", seen, rooms),
+                false => seen,
             }
         }
         Surprise::NoReturn { door, area, by } => {
             let door = form(Entity::Door(*door), Case::Accusative);
             let room = form(Entity::Area(*area), Case::Genitive);
-            let (ru, en) = match by.map(thing) {
-                Some(by) => {
-                    (format!("створке мешает {by}"), format!("{by} is in the way of the leaf"))
-                }
-                None => {
-                    ("там ему негде встать".to_owned(), "it has no place to stand there".to_owned())
-                }
+            let why = match by.map(thing) {
+                Some(by) => told!(language, "in-the-way-of-the-leaf", by),
+                None => told!(language, "no-place-to-stand-there"),
             };
-            language.pick(
-                format!("закрыв {door}, робот не сможет открыть её снова из {room}: {ru}"),
-                format!("once {door} is shut, the robot could not open it again from {room}: {en}"),
-            )
+            told!(language, "no-return", door, room, why)
         }
-        Surprise::Unknown { name } => match language {
-            Language::Russian => format!("на карте нет «{name}»"),
-            Language::English => format!("the map has no “{name}”"),
-        },
+        Surprise::Unknown { name } => told!(language, "the-map-has-no", name),
         Surprise::Refused { refusal, .. } => match *refusal {
-            Refusal::Locked(door) => told("{} заперта", "{} is locked", Obstruction::Door(door)),
+            Refusal::Locked(door) => {
+                told!(language, "is-locked", door = thing(Obstruction::Door(door)))
+            }
             Refusal::DoorJammed { door, by, opening } => {
                 let how = match opening {
-                    0 => language.pick("не открывается", "does not open").to_owned(),
-                    _ => language.pick(
-                        format!("не движется дальше {opening} %"),
-                        format!("does not move past {opening}%"),
-                    ),
+                    0 => told!(language, "does-not-open"),
+                    _ => told!(language, "moves-no-farther", opening),
                 };
-                let by = by.map_or_else(|| language.pick("робот", "the robot").to_owned(), thing);
+                let by = by.map_or_else(|| told!(language, "the-robot"), thing);
                 let door = thing(Obstruction::Door(door));
-                language.pick(
-                    format!("{door} {how}: створке мешает {by}"),
-                    format!("{door} {how}: {by} is in the way of its leaf"),
-                )
+                told!(language, "in-the-way-of-a-leaf", door, how, by)
             }
-            Refusal::OutOfReach(id) => {
-                let what = Obstruction::Replica(id);
-                told_in(Case::Genitive, "до {} не дотянуться", "{} is out of reach", what)
-            }
-            Refusal::NotThere(id) => {
-                let what = Obstruction::Replica(id);
-                told_in(Case::Genitive, "{} нет на месте", "{} is not in its place", what)
-            }
-            Refusal::HandFull(id) => told(
-                "рука занята: в ней {}",
-                "the hand is full: it holds {}",
-                Obstruction::Replica(id),
-            ),
-            Refusal::NotHeld(id) => {
-                let what = Obstruction::Replica(id);
-                told_in(Case::Genitive, "{} нет в руке", "{} is not in the hand", what)
-            }
+            Refusal::OutOfReach(id) => told!(language, "out-of-reach", thing = of(id)),
+            Refusal::NotThere(id) => told!(language, "not-in-its-place", thing = of(id)),
+            Refusal::HandFull(id) => told!(language, "hand-full", thing = the(id)),
+            Refusal::NotHeld(id) => told!(language, "not-in-the-hand", thing = of(id)),
             // One that opens them found it locked, or shut when it should have been open.
             Refusal::Shut(id) if world.robot.opens => {
-                told("{}: закрыто", "{} is shut", Obstruction::Replica(id))
+                told!(language, "thing-shut", thing = the(id))
             }
-            Refusal::Shut(id) => told(
-                "{}: дверцы закрыты, а дверцы мебели робот не открывает",
-                "{} is shut, and the robot does not open doors of furniture",
-                Obstruction::Replica(id),
-            ),
-            Refusal::Stays(id) => told_in(
-                Case::Accusative,
-                "{} туда не подвинуть",
-                "{} cannot be pushed there",
-                Obstruction::Replica(id),
-            ),
+            Refusal::Shut(id) => told!(language, "thing-shut-for-good", thing = the(id)),
+            Refusal::Stays(id) => {
+                let thing = in_case(Obstruction::Replica(id), Case::Accusative);
+                told!(language, "not-to-be-pushed", thing)
+            }
             // On it or in it, as was said.
-            Refusal::NoRoom(id) => told(
-                "{}: свободного места там нет",
-                "{} has no room left",
-                Obstruction::Replica(id),
-            ),
+            Refusal::NoRoom(id) => told!(language, "no-room-left", thing = the(id)),
         },
     }
 }
@@ -178,9 +115,9 @@ pub(super) fn barred_in_words(world: &World, barred: &Barred, language: Language
         barred.things.iter().map(|id| thing_in_words(world, *id, Case::Nominative, language));
     let mut things: Vec<String> = known.collect();
     if things.is_empty() || !barred.unknown.is_empty() {
-        things.push(unknown_thing(language).to_owned());
+        things.push(unknown_thing(language));
     }
-    let is_one = things.len() == 1;
+    let count = things.len();
     let things = enumerate(&things, language);
     let room = named(world, Entity::Area(barred.area));
     let to = barred.to.as_ref().map(|to| match (world.find(to).first(), language) {
@@ -189,17 +126,12 @@ pub(super) fn barred_in_words(world: &World, barred: &Barred, language: Language
     });
     let at = barred.at.map(f64::round);
     let at = spot_in_words(at.x, at.y, "; ");
-    match language {
-        Language::Russian => {
-            let room = crate::language::russian::where_at(room.phrase());
-            let to = to.map_or_else(String::new, |to| format!(" к {to}"));
-            let bars = if is_one { "преграждает" } else { "преграждают" };
-            format!("{room} путь{to} {bars} {things} {at}")
-        }
-        Language::English => {
-            let to = to.map_or_else(String::new, |to| format!(" to {to}"));
-            let bars = if is_one { "bars" } else { "bar" };
-            format!("in {} {things} {bars} the way{to} {at}", room.english())
-        }
+    let room = match language {
+        Language::Russian => crate::language::russian::where_at(room.phrase()),
+        Language::English => told!(language, "in-room", room = room.english()),
+    };
+    match to {
+        Some(to) => told!(language, "way-to-barred", room, to, count, things, at),
+        None => told!(language, "way-barred", room, count, things, at),
     }
 }

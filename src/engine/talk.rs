@@ -14,7 +14,7 @@ use crate::meaning;
 use crate::robot::{beyond_arm, starting_pose};
 use crate::semantics::{Relations, Subject, robot_eye, things_in_view};
 use crate::store::Seen;
-use crate::units::{InOrder as _, MapId, Pose, ReplicaId};
+use crate::units::{InOrder as _, MapId, Pose, ReplicaId, told};
 
 use super::barriers::no_way_in_words;
 use super::journey::Journey;
@@ -174,8 +174,7 @@ impl State {
     /// As [`State::ask`].
     pub fn rule_of(&self, answer: &Answer) -> Result<String, Error> {
         if answer.stamp().is_some_and(|stamp| self.changes.has_renamed_since(stamp)) {
-            let changed = ("// карта с тех пор изменилась", "// the map has changed since");
-            return Ok(answer.language.pick(changed.0, changed.1).to_owned());
+            return Ok(format!("// {}", told!(answer.language, "map-has-changed")));
         }
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.rule(&answer.query, answer.language))
@@ -477,10 +476,6 @@ impl RobotSenses<'_> {
         language: Language,
         detail: Detail,
     ) -> Result<Way, String> {
-        let pick = |russian: &str, english: &str| match language {
-            Language::Russian => russian.to_owned(),
-            Language::English => english.to_owned(),
-        };
         // From a storey one starts where one is on it.
         let here = self.engine.robot_pose().map(|(map, _)| Thing::Entity(Entity::Map(map)));
         let from = from.filter(|start| Some(*start) != here);
@@ -488,10 +483,10 @@ impl RobotSenses<'_> {
             && self.engine.robot_pose().is_some_and(|(here, _)| here == map)
             && from.is_none()
         {
-            return Err(pick("я уже на этом этаже", "I am on that floor already"));
+            return Err(told!(language, "on-that-floor-already"));
         }
         if to.replica().is_some_and(|id| self.holder(id).is_some_and(|h| h.is_empty())) {
-            return Err(pick("это у меня в руках", "it is in my hands"));
+            return Err(told!(language, "it-is-in-my-hands"));
         }
         let journey = self.journey(around, from, to).map_err(|error| match (language, error) {
             (Language::English, Error::Request(_)) => {
@@ -499,7 +494,7 @@ impl RobotSenses<'_> {
             }
             (_, error) => error.to_string(),
         })?;
-        let unknown = || pick("место неизвестно", "the place is unknown");
+        let unknown = || told!(language, "the-place-is-unknown");
         let journey = journey.ok_or_else(unknown)?;
         let mut length = 0.0;
         for leg in &journey.legs {
@@ -510,7 +505,7 @@ impl RobotSenses<'_> {
                     let why = no_way_in_words(world, no, language);
                     // A door that is shut and no more can be opened.
                     return Err(match only_shut(no) {
-                        true => format!("{why}, {}", pick("но не на замок", "but not locked")),
+                        true => format!("{why}, {}", told!(language, "but-not-locked")),
                         false => why,
                     });
                 }

@@ -77,7 +77,7 @@ impl State {
 
 fn unreadable(file: &Path, fault: &FileFault) -> MapErrors {
     let path = file.to_string_lossy().into_owned();
-    let message = Bilingual::new(fault.to_string(), fault.english());
+    let message = Bilingual::from(fault);
     MapErrors::of(match fault {
         FileFault::TooLarge { bytes, limit } => MapError::TooLarge { bytes: *bytes, limit: *limit },
         _ => MapError::Unreadable { path, message },

@@ -11,7 +11,7 @@ use crate::language::report::Detail;
 use crate::language::zones::{when, zone_in_words};
 use crate::language::{Case, Language, enumerate};
 use crate::map::{Entity, Zone, ZoneKind, plane};
-use crate::units::{AreaId, InOrder as _, ZoneId, capitalized, name_key};
+use crate::units::{AreaId, InOrder as _, ZoneId, capitalized, name_key, told};
 
 use super::known::Known;
 use super::lexicon::named;
@@ -229,7 +229,7 @@ impl State {
             let sentences = ids.iter().map(|id| {
                 let words = capitalized(&zone_in_words(world, *id, language));
                 let zone = &world.zones[id];
-                let idle = language.pick("сейчас не действует", "not in force now");
+                let idle = told!(language, "not-in-force-now");
                 match known.is_in_force(zone) {
                     true => format!("{words}."),
                     false => format!("{words} ({idle})."),
@@ -247,7 +247,7 @@ impl State {
         let of = |is_wanted: &dyn Fn(&Zone) -> bool| -> Vec<ZoneId> {
             world.zones.values().filter(|zone| is_wanted(zone)).map(|zone| zone.id).collect()
         };
-        let none = language.pick("Таких зон на карте нет.", "There are no such zones on the map.");
+        let none = told!(language, "no-such-zones");
         if let Ask::Which(sort) | Ask::HowMany(sort) = ask {
             // What is closed is so now; of all zones those to come are told too.
             let ids = of(&|zone| match sort {
@@ -265,10 +265,7 @@ impl State {
         }
         if ask == Ask::WhereNot {
             let ids = of(&|zone| zone.kind.is_shut() && known.is_in_force(zone));
-            let nowhere = language.pick(
-                "Зон, куда роботу нельзя, сейчас нет.",
-                "There is no zone now that the robot may not enter.",
-            );
+            let nowhere = told!(language, "no-zone-now");
             return Ok(Some(match ids.is_empty() {
                 true => answer(Said::Nothing, &ids, None, nowhere.to_owned()),
                 false => answer(Said::Found, &ids, None, told(&ids)),
@@ -309,8 +306,8 @@ impl State {
             }
             let said = if shut.is_empty() == is_shut { Said::No } else { Said::Yes };
             let yes = match said {
-                Said::Yes => language.pick("Да.", "Yes."),
-                _ => language.pick("Нет.", "No."),
+                Said::Yes => told!(language, "yes"),
+                _ => told!(language, "no"),
             };
             let words = format!("{yes} {}", told(&zones));
             return Ok(Some(answer(said, &zones, None, words)));
@@ -351,11 +348,11 @@ impl State {
             let last = ends.and_then(|ends| ends.into_iter().max());
             words = match (last, shut.len()) {
                 (None, _) => {
-                    let open = language.pick("Конец не указан.", "No end is given.");
+                    let open = told!(language, "no-end-is-given");
                     format!("{words} {open}")
                 }
                 (Some(last), 2..) => {
-                    let by = language.pick("Последняя – до", "The last one until");
+                    let by = told!(language, "last-zone-until");
                     format!("{words} {by} {}.", when(last))
                 }
                 (Some(_), _) => words,
@@ -370,7 +367,7 @@ impl State {
                 .map(|id| named(world, Entity::Zone(*id)).form(Case::Nominative, language))
                 .collect();
             if !names.is_empty() {
-                let unknown = language.pick("Причина не указана", "No reason is given");
+                let unknown = told!(language, "no-reason-is-given");
                 words = format!("{words} {unknown}: {}.", enumerate(&names, language));
             }
         }

@@ -18,7 +18,15 @@ use orthoframe_map as map;
 use orthoframe_store as store;
 use orthoframe_units as units;
 
-units::messages!("../../rules/messages", "exchange", ImportError, ReadError, report::Why);
+units::messages!(
+    "../../rules/messages",
+    "exchange",
+    ImportError,
+    ReadError,
+    report::Why,
+    #[cfg(feature = "sqlite")]
+    SqliteError
+);
 
 mod assemble;
 mod error;

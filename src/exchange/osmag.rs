@@ -17,7 +17,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use crate::geometry::convex_hull;
 use crate::map::Properties;
 use crate::map::plane::{bounds, doubled_area};
-use crate::units::{Bilingual, Cm, Lengths, Point, Source, Vector, bilingual};
+use crate::units::{Bilingual, Cm, Point, Source, Vector, said, word};
 
 use super::assemble::ring::{self, LEAST_AREA, Ring};
 use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey, zero_of};
@@ -60,7 +60,7 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
             rest.chars().take((pos.col as usize).saturating_sub(1)).map(char::len_utf8).sum();
         ReadError::syntax(
             FORMAT,
-            bilingual!("это не XML: {e}", "this is no XML: {e}"),
+            said!("this-is-no-xml", reason = e.to_string()),
             source,
             start + within,
         )
@@ -69,11 +69,7 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
     reader.nodes(document.root_element());
     reader.areas();
     if reader.areas.is_empty() {
-        let what = (
-            "нет ни одного пути с osmAG:type=area или indoor=room",
-            "there is no way with osmAG:type=area or indoor=room",
-        )
-            .into();
+        let what = word!("there-is-no-way-with").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     reader.thin_areas();
@@ -146,13 +142,7 @@ impl<'x> Reader<'x> {
                         || tags(node).get("name") == Some(&"root");
                     places.push((id, lat, lon, is_root));
                 }
-                _ => self.remark(
-                    id,
-                    (
-                        "узел пропущен: негодные широта и долгота",
-                        "a node is left out: bad latitude and longitude",
-                    ),
-                ),
+                _ => self.remark(id, word!("a-node-is-left-out")),
             }
         }
         let Some(&(_, lat0, lon0, _)) = places.iter().find(|p| p.3).or(places.first()) else {
@@ -180,13 +170,7 @@ impl<'x> Reader<'x> {
         }
         if missing > 0 {
             let id = self.ways[way].id;
-            self.remark(
-                id,
-                bilingual!(
-                    "нет узлов контура: {missing}",
-                    "nodes of the outline are missing: {missing}"
-                ),
-            );
+            self.remark(id, said!("nodes-of-the-outline-are", missing));
         }
         outline
     }
@@ -287,24 +271,11 @@ impl<'x> Reader<'x> {
                 .collect();
             let jambs = lines.remove(&area).unwrap_or_default();
             let (outline, text) = match enclosed(&line, &jambs, &others) {
-                Some(outline) => (
-                    outline,
-                    (
-                        "контура нет: взято то, что лежит между его проходами",
-                        "there is no outline: what lies between its passages is taken",
-                    )
-                        .into(),
-                ),
+                Some(outline) => (outline, word!("there-is-no-outline-what").into()),
                 None => match strip(&line, &others) {
                     Some(outline) => {
-                        let [ru, en] = Lengths::said().both(strip_width(&line), 0);
-                        (
-                            outline,
-                            bilingual!(
-                                "контур – линия: взята полоса вдоль неё, {ru}",
-                                "the outline is a line: a strip along it is taken, {en}"
-                            ),
-                        )
+                        let text = said!("outline-is-a-line", wide = strip_width(&line));
+                        (outline, text)
                     }
                     None => continue,
                 },
@@ -342,25 +313,18 @@ impl<'x> Reader<'x> {
             let Way { id, tags, .. } = &self.ways[way];
             let (id, tags) = (*id, tags.clone());
             let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
-                self.remark(
-                    id,
-                    ("проход пропущен: нет узлов", "the passage is left out: it has no nodes"),
-                );
+                self.remark(id, word!("the-passage-is-left-out"));
                 continue;
             };
             let wanted = tags.get("level").map(|_| level(&tags));
             let mut ends = Vec::new();
             for key in ["osmAG:from", "osmAG:to"] {
                 match tags.get(key) {
-                    None => self
-                        .remark(id, bilingual!("у прохода нет {key}", "the passage has no {key}")),
+                    None => self.remark(id, said!("the-passage-has-no", key)),
                     Some(&word) => match self.nearest(word, wanted, first) {
                         Some(found) => ends.push(found),
                         None => {
-                            let text = bilingual!(
-                                "проход ссылается на «{word}», чего в файле нет",
-                                "the passage refers to “{word}”, which the file does not have"
-                            );
+                            let text = said!("the-passage-refers-to-which", word);
                             self.remark(id, text);
                         }
                     },
@@ -386,13 +350,7 @@ impl<'x> Reader<'x> {
                 self.survey.levels.iter().position(|l| l.source == number.to_string())
             });
             let Some(at) = at.or_else(|| ends.first().map(|&e| self.areas[e].level)) else {
-                self.remark(
-                    id,
-                    (
-                        "проход пропущен: этаж неизвестен",
-                        "the passage is left out: its storey is not known",
-                    ),
-                );
+                self.remark(id, word!("the-passage-is-left-out-its"));
                 continue;
             };
             self.survey.levels[at].openings.push(Opening {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::map::{self, MapErrors, Profile, World};
-use crate::units::{Deg, Frame, Lengths, Point, Source, bilingual};
+use crate::units::{Deg, Frame, Point, Source, said};
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
@@ -157,7 +157,7 @@ impl Input<'_> {
     pub(super) fn source(&self) -> Result<&Source, ReadError> {
         self.text.as_ref().ok_or_else(|| ReadError::Unreadable {
             path: self.path.display().to_string(),
-            reason: ("это папка, а не файл", "this is a folder, and no file").into(),
+            reason: said!("this-is-a-folder-and"),
         })
     }
 
@@ -333,12 +333,7 @@ pub fn read_grid(
     options: &Options,
 ) -> Result<Imported, ImportError> {
     if !(0.1..=1000.0).contains(&cell) {
-        let both = |cm| Lengths::said().both(cm, 2);
-        let [[ru, en], [least_ru, least_en], [most_ru, most_en]] = [cell, 0.1, 1000.0].map(both);
-        let what = bilingual!(
-            "{ru} на клетку: нужно от {least_ru} до {most_ru}",
-            "{en} a cell: from {least_en} to {most_en} is wanted"
-        );
+        let what = said!("cell-size", cell);
         return Err(ReadError::NoBuilding { format: ros::FORMAT, what }.into());
     }
     let sheet = ros::Sheet {

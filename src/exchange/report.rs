@@ -9,7 +9,7 @@ use std::fmt;
 use miette::Diagnostic;
 use serde::Serialize;
 
-use crate::units::{Bilingual, Fault as _, Language};
+use crate::units::{Bilingual, Fault as _, Language, Piece, told, word};
 
 /// What became of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -49,41 +49,41 @@ pub enum What {
 impl What {
     /// How many of these are counted, in Russian in the plural genitive: «помещений 4», "rooms: 4".
     #[must_use]
-    pub fn counted(self) -> (&'static str, &'static str) {
+    pub fn counted(self) -> Piece {
         match self {
-            Self::Building => ("зданий", "buildings"),
-            Self::Level => ("этажей", "storeys"),
-            Self::Room => ("помещений", "rooms"),
-            Self::Door => ("дверей", "doors"),
-            Self::Passage => ("проходов", "passages"),
-            Self::Window => ("окон", "windows"),
-            Self::Lift => ("лифтов и лестниц", "lifts and stairs"),
-            Self::Kind => ("видов вещей", "kinds of things"),
-            Self::Thing => ("вещей", "things"),
-            Self::Place => ("точек", "places"),
-            Self::Wall => ("стен", "walls"),
-            Self::Lane => ("полос движения", "lanes"),
-            Self::Relation => ("связей", "relations"),
-            Self::Record => ("записей", "records"),
+            Self::Building => word!("buildings"),
+            Self::Level => word!("storeys"),
+            Self::Room => word!("rooms"),
+            Self::Door => word!("doors"),
+            Self::Passage => word!("passages"),
+            Self::Window => word!("windows"),
+            Self::Lift => word!("lifts-and-stairs"),
+            Self::Kind => word!("kinds-of-things"),
+            Self::Thing => word!("things"),
+            Self::Place => word!("places"),
+            Self::Wall => word!("walls"),
+            Self::Lane => word!("lanes"),
+            Self::Relation => word!("relations"),
+            Self::Record => word!("records"),
         }
     }
 
-    fn one(self) -> (&'static str, &'static str) {
+    fn one(self) -> Piece {
         match self {
-            Self::Building => ("здание", "building"),
-            Self::Level => ("этаж", "storey"),
-            Self::Room => ("помещение", "room"),
-            Self::Door => ("дверь", "door"),
-            Self::Passage => ("проход", "passage"),
-            Self::Window => ("окно", "window"),
-            Self::Lift => ("лифт", "lift"),
-            Self::Kind => ("вид вещей", "kind of things"),
-            Self::Thing => ("вещь", "thing"),
-            Self::Place => ("точка", "place"),
-            Self::Wall => ("стена", "wall"),
-            Self::Lane => ("полоса движения", "lane"),
-            Self::Relation => ("связь", "relation"),
-            Self::Record => ("запись", "record"),
+            Self::Building => word!("building"),
+            Self::Level => word!("storey"),
+            Self::Room => word!("room"),
+            Self::Door => word!("door"),
+            Self::Passage => word!("passage"),
+            Self::Window => word!("window"),
+            Self::Lift => word!("lift"),
+            Self::Kind => word!("kind-of-things"),
+            Self::Thing => word!("thing"),
+            Self::Place => word!("place"),
+            Self::Wall => word!("wall"),
+            Self::Lane => word!("lane"),
+            Self::Relation => word!("relation"),
+            Self::Record => word!("record"),
         }
     }
 }
@@ -320,34 +320,26 @@ impl Report {
     /// The report for a person.
     #[must_use]
     pub fn say(&self, language: Language) -> String {
-        let one = |what: What| language.pick(what.one().0, what.one().1);
-        let counted = |what: What, count: usize| {
-            let (russian, english) = what.counted();
-            match language {
-                Language::Russian => format!("{russian} {count}"),
-                Language::English => format!("{english}: {count}"),
-            }
-        };
+        let one = |what: What| what.one().say(language);
+        let counted =
+            |what: What, count: usize| told!(language, "counted-of", what = what.counted(), count);
         let quoted = |text: &str| Bilingual::quoted(text).say(language).to_owned();
         let (file, format) = (quoted(&self.file), &self.format);
-        let mut told = match language {
-            Language::Russian => format!("Импорт {file}, формат {format}."),
-            Language::English => format!("Import of {file}, format {format}."),
-        };
-        let of = language.pick("из", "of");
+        let mut told = told!(language, "import-of-format", file, format);
+        let of = told!(language, "of");
         let count = |(what, c): (&What, &Count)| match c.found == c.taken {
             true => counted(*what, c.taken),
             false => format!("{} {of} {}", counted(*what, c.taken), c.found),
         };
         let counts: Vec<String> = self.counts.iter().map(count).collect();
         if !counts.is_empty() {
-            let read = language.pick("Прочитано", "Read");
+            let read = told!(language, "read");
             told.push_str(&format!("\n{read}: {}.", counts.join(", ")));
         }
         for (treatment, title) in [
-            (Treatment::Mended, language.pick("Исправлено", "Mended")),
-            (Treatment::Skipped, language.pick("Пропущено", "Left out")),
-            (Treatment::Noted, language.pick("Замечено", "Noted")),
+            (Treatment::Mended, told!(language, "mended")),
+            (Treatment::Skipped, told!(language, "left-out")),
+            (Treatment::Noted, told!(language, "noted")),
         ] {
             let mut groups: BTreeMap<(String, What), Vec<&Note>> = BTreeMap::new();
             for note in self.notes.iter().filter(|n| n.treatment == treatment) {
@@ -372,14 +364,13 @@ impl Report {
                     });
                     continue;
                 }
-                let (russian, english) = what.counted();
-                let of_these = language.pick(russian, english);
+                let of_these = what.counted().say(language);
                 told.push_str(&format!("\n  {of_these}: {} ({code})", notes.len()));
                 for note in notes.iter().take(SHOWN) {
                     told.push_str(&format!("\n    {}", line(note)));
                 }
                 if notes.len() > SHOWN {
-                    let more = language.pick("и ещё", "and more:");
+                    let more = told!(language, "and-more");
                     told.push_str(&format!("\n    {more} {}", notes.len() - SHOWN));
                 }
             }

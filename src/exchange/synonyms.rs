@@ -17,7 +17,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::map::Gender;
-use crate::units::{Bilingual, Carried, Cm, Source, bilingual, carried, name_key};
+use crate::units::{Bilingual, Carried, Cm, Source, carried, name_key, said};
 
 use super::ImportError;
 
@@ -203,13 +203,10 @@ impl Synonyms {
             let list = self.lists.entry(vocabulary).or_default();
             for record in records {
                 if record.name.trim().is_empty() {
-                    return Err(fault(("пустое имя (name)", "empty name").into(), None));
+                    return Err(fault(said!("empty-name"), None));
                 }
                 if !is_good_size(record.size) {
-                    return Err(fault(
-                        bilingual!("«{}»: негодные размеры (size)", "“{}”: bad size", record.name),
-                        None,
-                    ));
+                    return Err(fault(said!("bad-size", record = record.name), None));
                 }
                 list.add(record);
             }
@@ -225,20 +222,12 @@ impl Synonyms {
         for model in file.model {
             let Some(&meaning) = objects.by_name.get(&name_key(&model.object)) else {
                 return Err(fault(
-                    bilingual!(
-                        "«{}»: нет типа «{}»",
-                        "“{}”: there is no type “{}”",
-                        model.word,
-                        model.object
-                    ),
+                    said!("there-is-no-type", word = model.word, object = model.object),
                     None,
                 ));
             };
             if !is_good_size(model.size) {
-                return Err(fault(
-                    bilingual!("«{}»: негодные размеры (size)", "“{}”: bad size", model.word),
-                    None,
-                ));
+                return Err(fault(said!("bad-size-word", word = model.word), None));
             }
             objects.add_phrase(&model.word, meaning, model.size);
             self.models.insert(parts(&model.word));
@@ -247,12 +236,7 @@ impl Synonyms {
         for code in file.code {
             if !areas.by_name.contains_key(&name_key(&code.area)) {
                 return Err(fault(
-                    bilingual!(
-                        "«{}»: нет типа «{}»",
-                        "“{}”: there is no type “{}”",
-                        code.word,
-                        code.area
-                    ),
+                    said!("there-is-no-type-word", word = code.word, area = code.area),
                     None,
                 ));
             }

@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 
-use crate::units::{Bilingual, Source};
+use crate::units::{Piece, Source, said};
 
 use super::ReadError;
 
@@ -15,7 +15,7 @@ use super::ReadError;
 pub(super) fn parse(
     source: &Source,
     format: &'static str,
-    what: (&str, &str),
+    what: Piece,
 ) -> Result<Value, ReadError> {
     let options = serde_saphyr::options! {
         strict_booleans: true,
@@ -36,14 +36,6 @@ pub(super) fn parse(
                 lines.take((at.line() as usize).saturating_sub(1)).map(str::len).sum();
             before + (at.column() as usize).saturating_sub(1)
         });
-        ReadError::syntax(
-            format,
-            Bilingual::new(
-                format!("это не YAML {}: {e}", what.0),
-                format!("this is no YAML {}: {e}", what.1),
-            ),
-            source,
-            at,
-        )
+        ReadError::syntax(format, said!("no-yaml", what, reason = e.to_string()), source, at)
     })
 }

@@ -123,7 +123,7 @@ fn cycle_text(
         let mut from = head;
         for &to in way.iter().rev() {
             let is_negated = edges.get(&(from, to)).is_some_and(Option::is_some);
-            let not = if is_negated { language.pick("не ", "not ") } else { "" };
+            let not = if is_negated { word!("not").say(language) } else { "".into() };
             text += &format!(" → {not}{}", declared.relations[to].name);
             from = to;
         }

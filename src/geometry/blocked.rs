@@ -6,11 +6,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap, HashMap};
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
-use crate::units::{AreaId, Cm, DoorId, Gather as _, InOrder as _, ZoneId};
+use crate::units::{AreaId, DoorId, Gather as _, InOrder as _, ZoneId};
 
 use super::blocker::Blocker;
 use super::cells::{CellKey, Piece};
@@ -44,37 +41,21 @@ pub enum Barrier {
 }
 
 /// There is no way.
-#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
-#[non_exhaustive]
+#[derive(Debug, Clone, PartialEq)]
 pub enum NoRoute {
     /// Between start and goal stands what is named, in the order of the way.
-    #[error("пути нет: {text}")]
-    #[diagnostic(code(route::blocked), help("уберите препятствие или откройте дверь"))]
-    Blocked { barriers: Vec<Barrier>, text: String },
+    Blocked { barriers: Vec<Barrier> },
     /// The robot fits nowhere near the start or the goal.
-    #[error("пути нет: у начала или цели нет места, где робот помещается")]
-    #[diagnostic(
-        code(route::no_floor),
-        help("проверьте, что цель стоит на полу помещения этой карты")
-    )]
     NoFloor,
     /// The goal lies on another Map.
-    #[error("пути нет: цель находится на другой карте (помещение № {})", area.0)]
-    #[diagnostic(code(route::other_map), help("постройте путь до лифта или лестницы"))]
     OtherMap { area: AreaId },
 }
 
 impl NoRoute {
-    /// Barriers, with what they are called in Russian.
-    pub(super) fn of(world: &World, barriers: Vec<Barrier>) -> Self {
-        let text = barriers.iter().map(|b| b.describe(world)).collect::<Vec<_>>().join("; ");
-        Self::Blocked { barriers, text }
-    }
-
     #[must_use]
     pub fn barriers(&self) -> &[Barrier] {
         match self {
-            Self::Blocked { barriers, .. } => barriers,
+            Self::Blocked { barriers } => barriers,
             _ => &[],
         }
     }
@@ -109,7 +90,7 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
             true
         }
     });
-    NoRoute::of(world, barriers)
+    NoRoute::Blocked { barriers }
 }
 
 /// All that stands between the region of a cell and those of some others with nothing else before or behind it, what
@@ -504,88 +485,6 @@ impl Barrier {
             | Self::Zone { .. } => NO_GAP,
         }
     }
-
-    /// The barrier in Russian.
-    #[must_use]
-    pub fn describe(&self, world: &World) -> String {
-        let area = |id: &AreaId| world.areas.get(id).map_or("?", |a| a.name.as_str());
-        let door = |id: &DoorId| world.doors.get(id).map_or("?", |d| d.name.as_str());
-        let list = |blockers: &[Blocker]| {
-            let mut names: Vec<String> = blockers.iter().map(|b| b.name(world)).collect();
-            // Several sides are walls, too, but one «стена» will do.
-            names.dedup();
-            names.join(", ")
-        };
-        match self {
-            Self::Door { door: id, status: DoorStatus::Locked } => format!("{} заперта", door(id)),
-            Self::Door { door: id, .. } => format!("{} закрыта", door(id)),
-            Self::Narrow { door: id, areas, width, needed } => {
-                let what = id.as_ref().map_or_else(
-                    || format!("проход между «{}» и «{}»", area(&areas[0]), area(&areas[1])),
-                    |d| format!("проём «{}»", door(d)),
-                );
-                format!("{what} шириной {}, роботу нужно {}", tenth(*width), tenth(*needed))
-            }
-            Self::Low { door: id, height, needed } => {
-                format!("{} высотой {}, робот высотой {}", door(id), tenth(*height), tenth(*needed))
-            }
-            Self::Step { areas, rise } => format!(
-                "ступень {} между «{}» и «{}»",
-                tenth(rise.abs()),
-                area(&areas[0]),
-                area(&areas[1])
-            ),
-            Self::Gap { width, needed, between, .. } => format!(
-                "промежуток {}, роботу нужно {} ({})",
-                tenth(*width),
-                tenth(*needed),
-                list(between)
-            ),
-            Self::Enclosed { area: id, by } if by.is_empty() => {
-                format!("«{}»: выхода нет", area(id))
-            }
-            Self::Enclosed { area: id, by } => {
-                format!("«{}»: путь загораживают {}", area(id), list(by))
-            }
-            Self::Doorless { area: id } => {
-                format!("«{}»: нет ни двери, ни прохода в другие помещения", area(id))
-            }
-            Self::Zone { zone } => {
-                world.zones.get(zone).map_or_else(String::new, |z| format!("зона «{}»", z.name))
-            }
-            Self::Apart { areas } => {
-                format!(
-                    "«{}» и «{}» не соединены ни дверью, ни проходом",
-                    area(&areas[0]),
-                    area(&areas[1])
-                )
-            }
-        }
-    }
-}
-
-impl Blocker {
-    /// What people call it.
-    #[must_use]
-    pub fn name(&self, world: &World) -> String {
-        let replica = |id| world.replicas.get(id).map_or_else(String::new, |r| r.name.clone());
-        let door = |id| world.doors.get(id).map_or_else(String::new, |d| d.name.clone());
-        match self {
-            Self::Replica { replica: id, .. } => replica(id),
-            Self::DoorLeaf { door: id, .. } => format!("створка «{}»", door(id)),
-            Self::ReplicaLeaf { replica: id, .. } => format!("створка «{}»", replica(id)),
-            Self::Wall { .. } => "стена".to_owned(),
-            Self::Floor { .. } => "ступень или низкий потолок".to_owned(),
-            Self::Zone { zone } => {
-                world.zones.get(zone).map_or_else(String::new, |z| format!("зона «{}»", z.name))
-            }
-        }
-    }
-}
-
-fn tenth(cm: f64) -> Cm {
-    // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
-    Cm::new((cm * 10.0 + 1e-6).floor() / 10.0).unwrap_or(Cm::ZERO)
 }
 
 /// The distinct things among blockers, each with its part that is in the way: of several the lowest.

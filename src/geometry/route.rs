@@ -275,7 +275,7 @@ impl FloorPlan {
         let open = self.opened(world);
         let (mut barriers, way) = match open.route(world, from, target, Method::Shortest) {
             Ok(way) => (Vec::new(), way),
-            Err(NoRoute::Blocked { barriers, text }) => {
+            Err(NoRoute::Blocked { barriers }) => {
                 // Beyond the doors that are shut there may be zones.
                 let doors = barriers.iter().filter_map(|b| match b {
                     Barrier::Door { door, .. } => Some((*door, DoorState::OPEN)),
@@ -284,7 +284,7 @@ impl FloorPlan {
                 let opened = open.with_doors(world, &doors.collect());
                 match opened.route(world, from, target, Method::Shortest) {
                     Ok(way) => (barriers, way),
-                    Err(_) => return NoRoute::Blocked { barriers, text },
+                    Err(_) => return NoRoute::Blocked { barriers },
                 }
             }
             Err(_) => return no,
@@ -305,10 +305,10 @@ impl FloorPlan {
             }
         }
         if zones.is_empty() {
-            return if barriers.is_empty() { no } else { NoRoute::of(world, barriers) };
+            return if barriers.is_empty() { no } else { NoRoute::Blocked { barriers } };
         }
         barriers.extend(zones.into_iter().map(|zone| Barrier::Zone { zone }));
-        NoRoute::of(world, barriers)
+        NoRoute::Blocked { barriers }
     }
 
     /// The point that a target is, where it is one.
@@ -396,7 +396,9 @@ impl FloorPlan {
             if let Some(points) = against {
                 let is_one_way = |kind| matches!(kind, ZoneKind::OneWay { .. });
                 let zones = self.touched(&points, is_one_way).into_iter();
-                return NoRoute::of(world, zones.map(|zone| Barrier::Zone { zone }).collect());
+                return NoRoute::Blocked {
+                    barriers: zones.map(|zone| Barrier::Zone { zone }).collect(),
+                };
             }
             let ends: Vec<CellKey> = goals.iter().map(|g| g.anchor.cell).collect();
             explain(self, world, start.cell, &ends)

@@ -15,6 +15,8 @@ use orthoframe_geometry as geometry;
 use orthoframe_map as map;
 use orthoframe_units as units;
 
+orthoframe_units::messages!("../../rules/messages", "recording", RecordingError);
+
 mod container;
 mod error;
 mod follower;

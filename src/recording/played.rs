@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::units::{Bilingual, bilingual, read_file};
+use crate::units::{Bilingual, read_file, said};
 
 use super::RecordingError;
 use super::container::{MAGIC, Reader, Torn, op};
@@ -74,17 +74,9 @@ impl Played {
         let mut reader = Reader(bytes.get(MAGIC.len()..).unwrap_or_default());
         played.cut = match played.read_records(&mut reader, &mut topics, false) {
             Ok(true) if bytes.ends_with(MAGIC) => None,
-            Ok(_) | Err(Fault::Torn(Torn::Short)) => {
-                Some(Bilingual::new("файл оборван", "the file was cut off"))
-            }
-            Err(Fault::Torn(Torn::Broken)) => {
-                Some(Bilingual::new("файл испорчен", "the file is damaged"))
-            }
-            Err(Fault::Compressed(how)) => Some(bilingual!(
-                "сжатие «{}» здесь не читается",
-                "the compression “{}” is not read here",
-                how
-            )),
+            Ok(_) | Err(Fault::Torn(Torn::Short)) => Some(said!("cut-off")),
+            Err(Fault::Torn(Torn::Broken)) => Some(said!("damaged")),
+            Err(Fault::Compressed(how)) => Some(said!("compressed", how)),
         };
         played
     }

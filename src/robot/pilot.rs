@@ -19,7 +19,7 @@ use crate::sensing::{
     Belief, Chart, Fit, Inspector, Localiser, Options, Tracker, Unknown, telling_move,
 };
 use crate::units::{
-    AreaId, Bilingual, Deg, DoorId, Frame, Gather as _, MapId, Point, Pose, ReplicaId,
+    AreaId, Bilingual, Deg, DoorId, Frame, Gather as _, MapId, Point, Pose, ReplicaId, said,
 };
 use crate::vectors::scan::{Noise, Sensor};
 use crate::vehicle::protocol::Scan;
@@ -126,12 +126,12 @@ pub fn height_of_laser(body: &mut dyn Vehicle) -> Result<f64, Failure> {
     match (looked, height) {
         (Err(Unfinished::Failed(failure)), _) => Err(failure),
         (_, Some(height)) if height.is_finite() => Ok(height),
-        _ => Err(nowhere("её дальномер молчит", "its range finder tells of nothing")),
+        _ => Err(nowhere(said!("its-range-finder-tells-of"))),
     }
 }
 
-fn nowhere(russian: &'static str, english: &'static str) -> Failure {
-    Failure::Nowhere { why: Bilingual::new(russian, english) }
+fn nowhere(why: Bilingual) -> Failure {
+    Failure::Nowhere { why }
 }
 
 impl<'g, 'v> Pilot<'g, 'v> {
@@ -148,7 +148,7 @@ impl<'g, 'v> Pilot<'g, 'v> {
         let odometry = Isometry2::from(body.pose().1);
         let pose = Isometry2::from(believed);
         let (tracker, inspector) = on_map(ground, finders, map, pose, odometry)
-            .ok_or_else(|| nowhere("такого этажа на карте нет", "the map has no such storey"))?;
+            .ok_or_else(|| nowhere(said!("the-map-has-no-such")))?;
         let doors = ground.world.doors.values().map(|door| (door.id, door.state)).collect();
         let mut pilot = Self {
             body,
@@ -304,26 +304,11 @@ impl<'g, 'v> Pilot<'g, 'v> {
             return Ok(());
         }
         let failure = match self.tracker.belief() {
-            Belief::OneOf(_) => nowhere(
-                "то, что он видит, подходит к нескольким местам",
-                "what it sees fits several places",
-            ),
-            Belief::Lost(Unknown::TooMany(_)) => nowhere(
-                "то, что он видит, подходит к слишком многим местам",
-                "what it sees fits too many places",
-            ),
-            Belief::Lost(Unknown::TooLittle) => nowhere(
-                "он видит слишком мало, чтобы узнать место",
-                "it sees too little to know a place by",
-            ),
-            Belief::At(_) | Belief::Lost(Unknown::Unsure) => nowhere(
-                "то, что он видит, подходит к одному месту, но не настолько, чтобы в этом быть уверенным",
-                "what it sees fits one place, but not so well as to be sure of it",
-            ),
-            Belief::Lost(Unknown::Nowhere) => nowhere(
-                "то, что он видит, на карте ни к чему не подходит: карта неверна, или он вне её",
-                "what it sees fits nowhere on the map: the map is wrong, or it is off the map",
-            ),
+            Belief::OneOf(_) => nowhere(said!("sees-several")),
+            Belief::Lost(Unknown::TooMany(_)) => nowhere(said!("sees-too-many")),
+            Belief::Lost(Unknown::TooLittle) => nowhere(said!("sees-too-little")),
+            Belief::At(_) | Belief::Lost(Unknown::Unsure) => nowhere(said!("sees-unsurely")),
+            Belief::Lost(Unknown::Nowhere) => nowhere(said!("sees-nowhere")),
         };
         Err(Unfinished::Failed(failure))
     }
@@ -503,7 +488,7 @@ impl Vehicle for Pilot<'_, '_> {
             (Isometry2::from(arrival.1), Isometry2::from(self.body.pose().1));
         let found = on_map(self.ground, self.finders, self.map, self.pose, self.odometry);
         let Some((tracker, inspector)) = found else {
-            let failure = nowhere("такого этажа на карте нет", "the map has no such storey");
+            let failure = nowhere(said!("the-map-has-no-such"));
             return Err(Unfinished::Failed(failure));
         };
         (self.tracker, self.inspector, self.look) = (tracker, inspector, None);

@@ -2,6 +2,7 @@
 
 use crate::graphplan::{self, Limits};
 use crate::strips::{Said, Task, Wording};
+use crate::units::{told, word};
 
 use super::solve::Solved;
 
@@ -43,56 +44,21 @@ impl Shortness {
     #[must_use]
     pub fn in_words(&self, wording: &Wording<'_>) -> String {
         let language = wording.language;
-        let mut lines = vec![language.pick(
-            format!("Почему шагов не меньше {}:", self.steps),
-            format!("Why there are no fewer than {}:", steps_in_english(self.steps)),
-        )];
+        let mut lines = vec![told!(language, "why-so-many-steps", steps = self.steps)];
         if self.row.len() > 1 {
             let row: Vec<String> = self.row.iter().map(|fact| wording.fact(fact)).collect();
-            lines.push(language.pick(
-                format!(
-                    "  в любом плане одно за другим становится так: {}; это уже {}",
-                    row.join(", затем "),
-                    count_in_russian(row.len()),
-                ),
-                format!(
-                    "  in every plan it comes to be, one after the other, that {}: that is {} at least",
-                    row.join(", then that "),
-                    steps_in_english(row.len()),
-                ),
-            ));
+            let steps = row.len();
+            let row = row.join(&word!("then").say(language));
+            lines.push(told!(language, "milestones", row, steps));
         }
         for (goal, steps) in &self.alone {
             let goal = wording.fact(goal);
-            lines.push(language.pick(
-                format!("  цель {goal} одна требует: {}", count_in_russian(*steps)),
-                format!("  the goal that {goal} takes {} alone", steps_in_english(*steps)),
-            ));
+            lines.push(told!(language, "goal-alone", goal, steps));
         }
         let seen = self.alone.iter().map(|(_, steps)| *steps).chain([self.row.len()]).max();
         if seen.unwrap_or(0) < self.steps {
-            lines.push(language.pick(
-                format!("  остальное доказал поиск: все планы короче {} исключены", self.steps),
-                format!(
-                    "  the rest is proven by search: all plans shorter than {} are ruled out",
-                    self.steps
-                ),
-            ));
+            lines.push(told!(language, "rest-by-search", steps = self.steps));
         }
         lines.join("\n")
     }
-}
-
-fn steps_in_english(steps: usize) -> String {
-    if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") }
-}
-
-fn count_in_russian(steps: usize) -> String {
-    let word = match (steps % 10, steps % 100) {
-        (1, hundred) if hundred != 11 => "шаг",
-        (2..=4, 10..=20) => "шагов",
-        (2..=4, _) => "шага",
-        _ => "шагов",
-    };
-    format!("{steps} {word}")
 }

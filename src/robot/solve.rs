@@ -15,7 +15,7 @@ use crate::strips::{
     Clash, Domain, FactId, Obstacle, Phrases, Problem, RuleFaults, Said, Task, Wording,
     explain_unreachable,
 };
-use crate::units::{Language, name_key};
+use crate::units::{Language, name_key, told};
 
 /// What planning came to, with the task that it was about.
 #[derive(Debug, Clone)]
@@ -93,28 +93,21 @@ impl Reason {
                 told.join("\n")
             }
             Self::Exclusive(pairs) => {
-                let and = language.pick("и", "and that");
+                let and = told!(language, "and-that");
                 let pair = |(a, b): &(Said, Said)| {
                     format!("{} {and} {}", wording.fact(a), wording.fact(b))
                 };
                 let pairs: Vec<String> = pairs.iter().map(pair).collect();
-                let head = language
-                    .pick("цели исключают друг друга: ", "the goals exclude each other: that ");
+                let head = told!(language, "goals-exclude");
                 head.to_owned() + &pairs.join(language.pick("; ", "; that "))
             }
             Self::Together(facts) => {
-                let head = language.pick(
-                    "цели недостижимы все вместе: ",
-                    "the goals are out of reach all together: that ",
-                );
+                let head = told!(language, "goals-out-of-reach");
                 let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
                 head.to_owned() + &facts.join(language.pick(", ", ", that "))
             }
             Self::NoWay(actions) => {
-                let head = language.pick(
-                    "по правилам план есть, но на полу нет пути для действий: ",
-                    "by the rules there is a plan, but the floor has no way for the actions: ",
-                );
+                let head = told!(language, "floor-has-no-way");
                 let action = |refused: &Refused| match &refused.why {
                     Some(why) => {
                         format!("{} ({})", wording.action(&refused.action), why.say(language))
@@ -126,61 +119,36 @@ impl Reason {
             }
             Self::Limit { limit, at_least, at_most: None, tried } => {
                 let ended = match limit {
-                    Limit::Time => language.pick(
-                        "время вышло раньше, чем нашёлся план",
-                        "the time was up before a plan was found",
-                    ),
-                    Limit::Memory => language.pick(
-                        "память вышла раньше, чем нашёлся план",
-                        "the memory was used up before a plan was found",
-                    ),
-                    Limit::Steps => language.pick(
-                        "плана нет в пределах наибольшего числа шагов",
-                        "there is no plan within the greatest number of steps",
-                    ),
-                    Limit::Stopped => language.pick(
-                        "поиск прерван раньше, чем нашёлся план",
-                        "the search was stopped before a plan was found",
-                    ),
-                    Limit::Effort => language.pick(
-                        "отведённые усилия потрачены раньше, чем нашёлся план",
-                        "the effort allowed was spent before a plan was found",
-                    ),
+                    Limit::Time => told!(language, "no-plan-in-time"),
+                    Limit::Memory => told!(language, "no-plan-in-memory"),
+                    Limit::Steps => told!(language, "no-plan-within-steps"),
+                    Limit::Stopped => told!(language, "no-plan-before-stop"),
+                    Limit::Effort => told!(language, "no-plan-in-effort"),
                 };
                 let known = match at_least {
                     0 => ended.to_owned(),
-                    least => language.pick(
-                        format!("{ended}; доказано, что шагов нужно не меньше {least}"),
-                        format!("{ended}; proven: at least {least} steps are needed"),
-                    ),
+                    least => told!(language, "proven-steps", ended, least),
                 };
                 let tried: Vec<String> =
                     tried.iter().map(|attempt| tried_in_words(attempt, language)).collect();
                 match tried.is_empty() {
                     true => known,
-                    false => format!(
-                        "{known}; {}: {}",
-                        language.pick("испробовано", "tried"),
-                        tried.join(", ")
-                    ),
+                    false => format!("{known}; {}: {}", told!(language, "tried"), tried.join(", ")),
                 }
             }
             Self::Limit { limit, at_least, at_most: Some(most), .. } => {
                 let ended = match limit {
-                    Limit::Time => language.pick("время вышло", "the time was up"),
-                    Limit::Memory => language.pick("память вышла", "the memory was used up"),
+                    Limit::Time => told!(language, "ended-by-time"),
+                    Limit::Memory => told!(language, "ended-by-memory"),
                     Limit::Steps => {
-                        language.pick("наибольшее число шагов", "the greatest number of steps")
+                        told!(language, "ended-by-steps")
                     }
-                    Limit::Stopped => language.pick("поиск прерван", "the search was stopped"),
+                    Limit::Stopped => told!(language, "ended-by-stop"),
                     Limit::Effort => {
-                        language.pick("отведённые усилия потрачены", "the effort allowed was spent")
+                        told!(language, "ended-by-effort")
                     }
                 };
-                language.pick(
-                    format!("{ended} раньше, чем нашёлся план короче или стало ясно, что его нет; шагов нужно от {at_least} до {most}"),
-                    format!("{ended} before a shorter plan was found or ruled out; it takes {at_least} to {most} steps"),
-                )
+                told!(language, "shorter-plan-open", ended, at_least, most)
             }
         }
     }
@@ -191,22 +159,20 @@ fn tried_in_words(attempt: &Attempt, language: Language) -> String {
     let Attempt { way, times, levels, nodes, effort } = *attempt;
     let way = match way {
         Way::Grounding => {
-            return language
-                .pick("составление действий по правилам", "making ground actions of the rules")
-                .to_owned();
+            return told!(language, "way-grounding");
         }
-        Way::Graph => language.pick("граф планирования", "the planning graph"),
-        Way::Proof => language.pick("доказательство кратчайшего", "the proof of the fewest steps"),
-        Way::Forward => language.pick("поиск вперёд", "search forward"),
+        Way::Graph => told!(language, "way-graph"),
+        Way::Proof => told!(language, "way-proof"),
+        Way::Forward => told!(language, "way-forward"),
     };
     let mut far = Vec::new();
     if levels > 0 {
-        far.push(language.pick(format!("уровней {levels}"), format!("levels: {levels}")));
+        far.push(told!(language, "levels", levels));
     }
-    far.push(language.pick(format!("узлов {nodes}"), format!("nodes: {nodes}")));
-    far.push(language.pick(format!("усилие {effort}"), format!("effort: {effort}")));
+    far.push(told!(language, "nodes", nodes));
+    far.push(told!(language, "effort", effort));
     if times > 1 {
-        far.push(language.pick(format!("раз {times}"), format!("times: {times}")));
+        far.push(told!(language, "times", times));
     }
     format!("{way} ({})", far.join(", "))
 }

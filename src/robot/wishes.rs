@@ -12,7 +12,7 @@ use super::passable::{Passable, again};
 use super::solve::{Solved, Wanted, solve_goal};
 use crate::graphplan::{Limits, Outcome};
 use crate::strips::{Domain, Preference, Problem, RuleFaults};
-use crate::units::{Gather as _, Language};
+use crate::units::{Gather as _, Language, told};
 
 /// Which preferences a plan meets.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -38,22 +38,16 @@ impl Wishes {
         };
         if self.unmet.is_empty() {
             let all = names(&self.met);
-            return language.pick(
-                format!("Желания исполнены все: {all}."),
-                format!("All wishes are met: {all}."),
-            );
+            return told!(language, "wishes-met", all);
         }
         let least = match self.is_least {
-            true => language.pick("меньше нельзя, это доказано", "no plan fails less, proven"),
+            true => told!(language, "wishes-least"),
             false => {
-                language.pick("можно ли меньше, неизвестно", "whether less will do is unknown")
+                told!(language, "wishes-maybe-less")
             }
         };
         let (unmet, weight) = (names(&self.unmet), written(self.weight()));
-        language.pick(
-            format!("Желания не исполнены: {unmet}; всего {weight}, {least}."),
-            format!("Wishes not met: {unmet}; {weight} in all, {least}."),
-        )
+        told!(language, "wishes-unmet", unmet, weight, least)
     }
 }
 

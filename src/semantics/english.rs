@@ -3,18 +3,7 @@
 use miette::Diagnostic;
 
 use crate::relations::RelationError;
-use crate::thresholds::ThresholdFault;
-use crate::units::{English, EnglishGroup, InEnglish, Language};
-
-impl InEnglish for ThresholdFault {
-    fn english(&self) -> String {
-        self.message.say(Language::English).to_owned()
-    }
-
-    fn english_help(&self) -> Option<String> {
-        Some(self.help.say(Language::English).to_owned())
-    }
-}
+use crate::units::{English, EnglishGroup, InEnglish};
 
 impl RelationError {
     /// The faults as English tells them, each with its place.

@@ -56,7 +56,12 @@ use orthoframe_geometry as geometry;
 use orthoframe_map as map;
 use orthoframe_units as units;
 
-units::messages!("../../rules/messages", "semantics", relations::RelationError);
+units::messages!(
+    "../../rules/messages",
+    "semantics",
+    relations::RelationError,
+    thresholds::ThresholdFault
+);
 
 mod ask;
 mod asked;

@@ -7,12 +7,11 @@
 //!
 //! **Invariant:** the standard text says of every name what the table says; a test holds it.
 
-use miette::{Diagnostic, SourceSpan};
-use thiserror::Error;
+use miette::SourceSpan;
 
 use crate::facts::{Program, Value};
 use crate::map::Profile;
-use crate::units::{Bilingual, InOrder as _, Piece, Source, said, word};
+use crate::units::{Bilingual, Fault, InOrder as _, Piece, Source, said, word};
 
 /// What a number of the rule text counts, and what it may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -314,15 +313,13 @@ thresholds! {
 }
 
 /// What is wrong with one `limit` or `reach` of a rule text.
-#[derive(Debug, Clone, Error, Diagnostic)]
-#[error("{message}")]
-#[diagnostic(code(semantics::threshold), help("{help}"))]
+#[derive(Debug, Clone, Fault)]
+#[fault(code = "semantics::threshold")]
 pub struct ThresholdFault {
     pub(super) message: Bilingual,
     pub(super) help: Bilingual,
     #[source_code]
     text: Source,
-    #[label("здесь")]
     at: SourceSpan,
 }
 

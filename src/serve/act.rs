@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::engine::{Change, Engine, Error, Format, Mode, When, change_now, json as views};
 use crate::map::Edits;
-use crate::units::{Language, OwnText, Source};
+use crate::units::{Language, OwnText, Source, said};
 
 use super::drive::Declined;
 use super::fault::Fault;
@@ -117,40 +117,28 @@ impl From<Declined> for Fault {
     fn from(declined: Declined) -> Self {
         match declined {
             Declined::Unknown => unknown(),
-            Declined::Expired { replies, task } => Self::new(
-                StatusCode::CONFLICT,
-                "serve::expired",
-                "Карта или то, на чём держался план, с тех пор изменились; вот план, каков он теперь.",
-                "The map, or what the plan rested on, has changed since; this is the plan as it is now.",
-            )
-            .with("task", task)
-            .with("replies", replies),
+            Declined::Expired { replies, task } => {
+                Self::new(StatusCode::CONFLICT, "serve::expired", said!("the-map-or-what-the"))
+                    .with("task", task)
+                    .with("replies", replies)
+            }
             Declined::Leased { holder, seconds } => Self::new(
                 StatusCode::CONFLICT,
                 "serve::leased",
-                &format!("Роботом управляет {holder}; ещё {seconds} с."),
-                &format!("{holder} drives the robot; {seconds} s more."),
+                said!("drives-the-robot-s-more", holder, seconds),
             )
             .with("holder", holder)
             .with("seconds", seconds),
-            Declined::Busy => Self::new(
-                StatusCode::CONFLICT,
-                "serve::busy",
-                "Робот занят; когда закончит, составьте план снова.",
-                "The robot is busy; plan again when it is done.",
-            ),
+            Declined::Busy => {
+                Self::new(StatusCode::CONFLICT, "serve::busy", said!("the-robot-is-busy-plan"))
+            }
             Declined::Failed(error) => Self::of(&error),
         }
     }
 }
 
 pub(super) fn unknown() -> Fault {
-    Fault::new(
-        StatusCode::NOT_FOUND,
-        "serve::no_such_task",
-        "Такого задания нет: оно уже начато, отменено или забыто.",
-        "There is no such task: it was begun, cancelled or forgotten.",
-    )
+    Fault::new(StatusCode::NOT_FOUND, "serve::no_such_task", said!("there-is-no-such-task"))
 }
 
 /// Drops a plan or a queued task, or stops the one that is driven.
@@ -259,8 +247,7 @@ pub(super) async fn lease(
         _ => Err(Fault::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "serve::lease",
-            "Здесь бывает take, keep или give.",
-            "This is take, keep or give.",
+            said!("this-is-take-keep-or"),
         )),
     }
 }
@@ -294,8 +281,7 @@ pub(super) async fn write(
         Written::Stale { revision, theirs } => Err(Fault::new(
             StatusCode::CONFLICT,
             "serve::stale",
-            "Пока вы правили, карту изменили другие; ваша правка не записана и не потеряна.",
-            "While you edited, others changed the map; your edit is neither written nor lost.",
+            said!("while-you-edited-others-changed"),
         )
         .with("on", on)
         .with("revision", revision)
@@ -388,8 +374,7 @@ fn no_verdict() -> Fault {
     Fault::new(
         StatusCode::UNPROCESSABLE_ENTITY,
         "serve::verdict",
-        "Здесь бывает confirm или reject.",
-        "This is confirm or reject.",
+        said!("this-is-confirm-or-reject"),
     )
 }
 
@@ -429,8 +414,7 @@ pub(super) async fn judge(
         return Err(Fault::new(
             StatusCode::NOT_FOUND,
             "serve::no_such_edit",
-            "Такой правки нет: о ней уже решено.",
-            "There is no such edit: it was decided already.",
+            said!("there-is-no-such-edit"),
         ));
     };
     let done = match said.verdict.as_str() {
@@ -486,7 +470,7 @@ pub(super) async fn invite(
     let token = house.gate.invite(role, if name.is_empty() { "?" } else { &name });
     let token = token.map_err(|error| {
         let text = error.to_string();
-        Fault::new(StatusCode::INTERNAL_SERVER_ERROR, "serve::random", &text, &text)
+        Fault::new(StatusCode::INTERNAL_SERVER_ERROR, "serve::random", text)
     })?;
     Ok(Json(views::invitation(&token, role.word())))
 }

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::{change_now, json as views};
 use crate::store::Sheet;
 use crate::store::shipping::unpack_rows;
+use crate::units::said;
 
 use super::act::{self, Answer};
 use super::fault::Fault;
@@ -115,12 +116,7 @@ pub(super) async fn take(
         return Err(Fault::of_role());
     }
     let unread = || {
-        Fault::new(
-            StatusCode::UNPROCESSABLE_ENTITY,
-            "serve::handed",
-            "Это не карта центра.",
-            "This is no map of a centre.",
-        )
+        Fault::new(StatusCode::UNPROCESSABLE_ENTITY, "serve::handed", said!("this-is-no-map-of"))
     };
     let end = body.iter().position(|byte| *byte == b'\n').ok_or_else(unread)?;
     let Handed { on, author, reason } =
@@ -129,8 +125,7 @@ pub(super) async fn take(
         return Err(Fault::new(
             StatusCode::CONFLICT,
             "serve::driving",
-            "Робот едет; карту центра он возьмёт, когда закончит.",
-            "The robot drives; it takes the centre's map when it is done.",
+            said!("the-robot-drives-it-takes"),
         ));
     }
     let sheet = sheet_of(&body[end + 1..]).ok_or_else(unread)?;

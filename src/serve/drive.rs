@@ -21,7 +21,7 @@ use crate::engine::{
 };
 use crate::recording::Played;
 use crate::robot::{Address, Moment, Patience, Vehicle};
-use crate::units::{Language, Stop};
+use crate::units::{Language, Stop, told};
 
 use super::book::{Book, Leased, Running, Task};
 use super::desk::Desk;
@@ -158,8 +158,8 @@ impl Tasks {
         let mut heard = rehearsal::rehearse(&state, &before, &rehearsal::Line::Said(text))?;
         // The dialogue knows of nothing that is under way.
         if heard.stops && self.stop(&session.name) {
-            let standing = language.pick("Останавливаюсь.", "I am stopping.");
-            heard.replies = vec![views::said("stopped", standing, None)];
+            let standing = told!(language, "i-am-stopping");
+            heard.replies = vec![views::said("stopped", &standing, None)];
         }
         let task = match heard.plan {
             // What nobody has heard was not said.
@@ -195,11 +195,8 @@ impl Tasks {
         self.book().running.as_ref()?;
         let robot = self.events.robot();
         let place = robot[language.pick("ru", "en")].as_str().map(str::to_owned);
-        let known = language.pick(
-            "Робот едет; что он сделал с начала задания, в ответе ещё не учтено.",
-            "The robot is under way; what it did since it set out is not in this answer yet.",
-        );
-        Some([known, place.as_deref().unwrap_or_default()].join(" ").trim().to_owned())
+        let known = told!(language, "under-way");
+        Some([known.as_str(), place.as_deref().unwrap_or_default()].join(" ").trim().to_owned())
     }
 
     /// Answers a question of whoever speaks. An order is not followed, and not planned.

@@ -7,7 +7,7 @@ use miette::Diagnostic;
 use serde_json::{Value, json};
 
 use crate::engine::{Error, json as views};
-use crate::units::{Bilingual, Language};
+use crate::units::{Bilingual, Language, said, told};
 
 use super::desk::Gone;
 
@@ -21,7 +21,9 @@ pub(super) struct Fault {
 impl Fault {
     /// In both languages, with a stable code.
     #[must_use]
-    pub(super) fn new(status: StatusCode, code: &str, russian: &str, english: &str) -> Self {
+    pub(super) fn new(status: StatusCode, code: &str, said: impl Into<Bilingual>) -> Self {
+        let said = said.into();
+        let [russian, english] = [Language::Russian, Language::English].map(|l| said.say(l));
         let body = json!({
             "outcome": "refused", "code": code, "message": russian, "message_en": english,
         });
@@ -31,21 +33,15 @@ impl Fault {
     /// Whoever asks may not.
     #[must_use]
     pub(super) fn of_role() -> Self {
-        Self::new(
-            StatusCode::FORBIDDEN,
-            "serve::role",
-            "Для этого вашей роли мало.",
-            "Your role is not enough for this.",
-        )
+        Self::new(StatusCode::FORBIDDEN, "serve::role", said!("your-role-is-not-enough"))
     }
 
     /// Arguments of a tool that it does not take, all at once.
     #[must_use]
     pub(super) fn of_arguments(tool: &str, faults: &[Bilingual]) -> Self {
         let told = |language: Language| {
-            let head = language.pick("Вызов", "Call of");
             let all: Vec<&str> = faults.iter().map(|fault| fault.say(language)).collect();
-            format!("{head} {tool}: {}.", all.join("; "))
+            told!(language, "call-of", tool, faults = all.join("; "))
         };
         let each: Vec<Value> = faults
             .iter()
@@ -55,9 +51,8 @@ impl Fault {
                 json!({ "message": russian, "message_en": english })
             })
             .collect();
-        let [russian, english] = [Language::Russian, Language::English].map(told);
-        Self::new(StatusCode::UNPROCESSABLE_ENTITY, "assist::arguments", &russian, &english)
-            .with("faults", each)
+        let told = Bilingual::both(told);
+        Self::new(StatusCode::UNPROCESSABLE_ENTITY, "assist::arguments", told).with("faults", each)
     }
 
     /// What is sent: code, message, help, in both languages.
@@ -119,8 +114,7 @@ impl From<Gone> for Fault {
         Self::new(
             StatusCode::SERVICE_UNAVAILABLE,
             "serve::gone",
-            "Двигатель остановился; перезапустите программу.",
-            "The engine has stopped; restart the program.",
+            said!("the-engine-has-stopped-restart"),
         )
     }
 }

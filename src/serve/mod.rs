@@ -36,7 +36,7 @@ use std::time::Duration;
 use crate::engine::{Engine, Error};
 use crate::recording::Played;
 use crate::robot::{Address, Patience};
-use crate::units::Stop;
+use crate::units::{Language, Stop, told};
 
 pub use assist::run as run_for_assistant;
 pub use gate::Role;
@@ -125,7 +125,7 @@ pub enum ServeError {
     #[error("{at}: {source}")]
     Listen { at: SocketAddr, source: std::io::Error },
     /// Whoever is on the net could drive the robot.
-    #[error("{at} видно в сети: нужен ключ не короче 16 знаков (--token или ORTHO_TOKEN)")]
+    #[error("{}", told!(Language::Russian, "seen-on-the-net", at = at.to_string()))]
     Open { at: SocketAddr },
 }
 

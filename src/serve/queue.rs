@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use crate::engine::{Dialogue, Error, Waiting, json as views, queue_in_words, waiting};
-use crate::units::Language;
+use crate::units::{Language, told};
 
 use super::book::Task;
 use super::drive::{Declined, Tasks};
@@ -209,37 +209,20 @@ impl Tasks {
             return Ok(None);
         }
         if session.role < Role::Drive && !matches!(said, Waiting::Pause | Waiting::List) {
-            let no =
-                language.pick("Для этого вашей роли мало.", "Your role is not enough for this.");
-            return tell("refused", no);
+            let no = told!(language, "your-role-is-not-enough");
+            return tell("refused", &no);
         }
         match said {
             Waiting::Pause => {
                 self.pause(session);
-                tell(
-                    "paused",
-                    language.pick(
-                        "Пауза: ничего не начинается, пока вы не скажете «продолжай».",
-                        "Paused: nothing is begun until you say \"resume\".",
-                    ),
-                )
+                tell("paused", &told!(language, "paused-by-operator"))
             }
             Waiting::Resume => match self.go_on(session, None) {
-                Ok(()) if ids.is_empty() => {
-                    tell("queue", language.pick("В очереди ничего нет.", "Nothing is waiting."))
+                Ok(()) if ids.is_empty() => tell("queue", &told!(language, "nothing-is-waiting")),
+                Ok(()) => tell("resumed", &told!(language, "i-go-on")),
+                Err(Declined::Leased { holder, seconds }) => {
+                    tell("refused", &told!(language, "drives-the-robot-s-more", holder, seconds))
                 }
-                Ok(()) => tell("resumed", language.pick("Продолжаю.", "I go on.")),
-                Err(Declined::Leased { holder, seconds }) => tell(
-                    "refused",
-                    &match language {
-                        Language::Russian => {
-                            format!("Роботом управляет {holder}; ещё {seconds} с.")
-                        }
-                        Language::English => {
-                            format!("{holder} drives the robot; {seconds} s more.")
-                        }
-                    },
-                ),
                 Err(_) => Ok(None),
             },
             Waiting::List => {
@@ -252,45 +235,17 @@ impl Tasks {
                     None => (ids.len() == 1).then_some(0),
                 };
                 let Some((id, text)) = at.and_then(|at| ids.get(at)) else {
-                    return tell(
-                        "refused",
-                        &match language {
-                            Language::Russian => {
-                                format!("Заданий ждёт {}: скажите, какое, по номеру.", ids.len())
-                            }
-                            Language::English => {
-                                format!("{} tasks wait: say which, by its number.", ids.len())
-                            }
-                        },
-                    );
+                    return tell("refused", &told!(language, "which-task", ids = ids.len()));
                 };
                 self.cancel(session, *id);
-                tell(
-                    "cancelled",
-                    &match language {
-                        Language::Russian => format!("Отменено: «{text}»."),
-                        Language::English => format!("Cancelled: \"{text}\"."),
-                    },
-                )
+                tell("cancelled", &told!(language, "cancelled", text))
             }
             Waiting::CancelAll => {
                 let count = ids.iter().filter(|(id, _)| self.cancel(session, *id)).count();
-                tell(
-                    "cancelled",
-                    &match language {
-                        Language::Russian => format!("Отменено заданий: {count}."),
-                        Language::English => format!("Cancelled, tasks: {count}."),
-                    },
-                )
+                tell("cancelled", &told!(language, "cancelled-tasks", count))
             }
             Waiting::Add(order) => match self.later(session, order) {
-                Ok(()) => tell(
-                    "queued",
-                    &match language {
-                        Language::Russian => format!("Ждёт в очереди: «{order}»."),
-                        Language::English => format!("Waiting: \"{order}\"."),
-                    },
-                ),
+                Ok(()) => tell("queued", &told!(language, "waiting", order)),
                 Err(error) => tell("misheard", &error.say(language)),
             },
         }

@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use crate::engine::json::{self as views, Completion, Part};
 use crate::engine::{Drawing, Engine, Error, RequestError, State, When, question_beginnings};
-use crate::units::{Language, MapId};
+use crate::units::{Language, MapId, said};
 
 use super::fault::Fault;
 use super::gate::Session;
@@ -122,12 +122,7 @@ fn reach(text: &str) -> Option<[f64; 4]> {
 }
 
 fn no_box() -> Fault {
-    Fault::new(
-        StatusCode::UNPROCESSABLE_ENTITY,
-        "serve::box",
-        "box – четыре числа через запятую: лево, низ, право, верх.",
-        "box is four numbers divided by commas: left, bottom, right, top.",
-    )
+    Fault::new(StatusCode::UNPROCESSABLE_ENTITY, "serve::box", said!("box-is-four-numbers-divided"))
 }
 
 /// The state as it was at a revision: the map alone.

@@ -22,7 +22,7 @@ use super::assist::Assistant;
 use super::fault::Fault;
 use super::gate::{Refused, Role, Session};
 use super::{House, act, centre, events, read};
-use crate::units::{Carried, carried};
+use crate::units::{Carried, carried, said};
 
 /// Bytes of a request's body.
 const BODY: usize = 1 << 20;
@@ -175,27 +175,16 @@ async fn bears(Of(house): Of<Arc<House>>, mut request: Request, next: Next) -> R
 
 impl IntoResponse for Refused {
     fn into_response(self) -> Response {
-        let (status, code, russian, english) = match self {
-            Self::Host => (
-                StatusCode::MISDIRECTED_REQUEST,
-                "serve::host",
-                "Это имя не этой машины.",
-                "That is no name of this machine.",
-            ),
-            Self::Origin => (
-                StatusCode::FORBIDDEN,
-                "serve::origin",
-                "Запрос пришёл не со страницы этого пульта.",
-                "The request does not come from this console's page.",
-            ),
-            Self::Stranger => (
-                StatusCode::UNAUTHORIZED,
-                "serve::stranger",
-                "Откройте адрес, который напечатала программа при запуске.",
-                "Open the address that the program printed when it started.",
-            ),
+        let (status, code, said) = match self {
+            Self::Host => {
+                (StatusCode::MISDIRECTED_REQUEST, "serve::host", said!("another-machines-name"))
+            }
+            Self::Origin => (StatusCode::FORBIDDEN, "serve::origin", said!("from-another-page")),
+            Self::Stranger => {
+                (StatusCode::UNAUTHORIZED, "serve::stranger", said!("open-the-printed-address"))
+            }
         };
-        Fault::new(status, code, russian, english).into_response()
+        Fault::new(status, code, said).into_response()
     }
 }
 

@@ -22,7 +22,7 @@ use super::tables::Table;
 use super::trees::{HISTORY, REPLICAS, RUNS, Records, State, Trees, digests};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
-use crate::units::{Bilingual, Gather as _, InEnglish, Piece, said, word};
+use crate::units::{Bilingual, Gather as _, Piece, said, word};
 
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -91,13 +91,7 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
             false => Err(StoreError::Tables { what: said!("there-are-no-tables-of-sled") }),
         }),
         Err(why) => {
-            report.find(
-                Severity::Note,
-                Bilingual::new(
-                    format!("{why}: таблицы sled не проверены"),
-                    format!("{}: the tables of sled are not checked", why.english()),
-                ),
-            );
+            report.find(Severity::Note, said!("tables-not-checked", why));
             Vault::open_read_only(Arc::clone(&disk), dir, &shelf)
         }
     };
@@ -215,13 +209,7 @@ fn check_map(store: Result<Store>, report: &mut FsckReport) {
         // The store kept faithfully what it was given: such a fault is the map's, not the store's.
         Ok(Some(world)) => {
             for fault in crate::map::check(&world).iter().filter(|f| !f.is_warning()) {
-                report.find(
-                    Severity::Note,
-                    Bilingual::new(
-                        format!("карта: {}", fault.error),
-                        format!("the map: {}", fault.error.english()),
-                    ),
-                );
+                report.find(Severity::Note, said!("of-the-map", fault = fault.error));
             }
         }
     }

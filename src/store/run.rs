@@ -127,7 +127,7 @@ fn write_one(disk: &dyn Disk, path: &Path, file: u64, records: &Giving<'_>) -> R
         });
         if let Err(error) = taken {
             met = Some(error);
-            return Err(std::io::Error::other("не дописано"));
+            return Err(std::io::ErrorKind::WriteZero.into());
         }
         writing.finish()
     });

@@ -17,7 +17,7 @@ use super::hint::{hint, perhaps};
 use super::phrases::phrases;
 use super::second::SecondNames;
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Document, Name, Parameter, Term};
-use crate::units::{Bilingual, Language, Piece, name_key, said, word};
+use crate::units::{Bilingual, Piece, name_key, said, word};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 ///
@@ -89,10 +89,7 @@ impl Checker<'_> {
     pub(super) fn duplicate(&mut self, what: Piece, name: &Name, first: Option<Place>) {
         let (first, elsewhere) =
             first.map_or((None, Bilingual::new("", "")), |first| places(&first, name));
-        let help = Bilingual::new(
-            format!("переименуйте или уберите одно из двух{}", elsewhere.say(Language::Russian)),
-            format!("rename or remove one of the two{}", elsewhere.say(Language::English)),
-        );
+        let help = said!("rename-one", elsewhere);
         let what = what.into();
         let name_text = name.text.clone();
         let error = |at| RuleError::Duplicate { what, name: name_text, help, at, first };

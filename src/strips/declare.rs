@@ -12,7 +12,7 @@ use super::error::RuleError;
 use super::fault::RuleFault;
 use super::hint::hint;
 use super::syntax::{Atom, Declaration, Document, Name, Parameter};
-use crate::units::{Bilingual, Language, name_key, said, word};
+use crate::units::{name_key, said, word};
 
 impl Checker<'_> {
     /// The type tree. Types named only as parents or in parameters count as declared where nothing else is.
@@ -124,10 +124,7 @@ impl Checker<'_> {
                     name: name.text.clone(),
                     found,
                     earlier,
-                    help: Bilingual::new(
-                        format!("оставьте одно из двух{}", elsewhere.say(Language::Russian)),
-                        format!("keep one of the two{}", elsewhere.say(Language::English)),
-                    ),
+                    help: said!("keep-one", elsewhere),
                     at,
                     first,
                 }));

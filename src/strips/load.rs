@@ -216,7 +216,7 @@ pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
             Some(std::io::ErrorKind::PermissionDenied) => {
                 said!("strips-no-permission")
             }
-            _ => Bilingual::new(fault.to_string(), fault.english()),
+            _ => (&fault).into(),
         },
     };
     Err(RuleFault::placeless(RuleError::Unreadable { path: shown, reason }))

@@ -81,7 +81,7 @@ impl From<String> for Bilingual {
 
 impl From<&FileFault> for Bilingual {
     fn from(fault: &FileFault) -> Self {
-        Self::new(fault.to_string(), fault.english())
+        Self::both(|language| fault.tell(language))
     }
 }
 

@@ -3,7 +3,6 @@
 //! What a name stands for may be a pipe into which nobody writes, a device without end, or a file that grows while it
 //! is read. Every reader goes through here, so that each of them ends, with bounded memory.
 
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
@@ -35,34 +34,7 @@ impl From<io::Error> for FileFault {
     }
 }
 
-impl fmt::Display for FileFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io(error) => write!(f, "{error}"),
-            Self::TooLarge { bytes, limit } => {
-                write!(f, "слишком велик: байт не меньше {bytes}, предел {limit}")
-            }
-            Self::Silent => {
-                write!(f, "ничего не приходит уже {} с", PATIENCE.as_secs())
-            }
-            Self::NotText { at } => write!(f, "не текст в UTF-8: байт {at}"),
-        }
-    }
-}
-
 impl FileFault {
-    #[must_use]
-    pub fn english(&self) -> String {
-        match self {
-            Self::Io(error) => error.to_string(),
-            Self::TooLarge { bytes, limit } => {
-                format!("too large: at least {bytes} bytes, and the limit is {limit}")
-            }
-            Self::Silent => format!("nothing has come for {} s", PATIENCE.as_secs()),
-            Self::NotText { at } => format!("no text in UTF-8: byte {at}"),
-        }
-    }
-
     /// As an error of the file system, for those whose own faults hold one.
     #[must_use]
     pub fn into_io(self) -> io::Error {
@@ -79,7 +51,7 @@ impl FileFault {
 }
 
 /// How long a pipe may give nothing.
-const PATIENCE: Duration = Duration::from_secs(5);
+pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 const PIECE: usize = 1 << 16;
 
 /// The bytes of a file, at most `limit`.

@@ -94,24 +94,10 @@ impl Lengths {
         format!("{} {}²", marked(without_zeros(area), language), self.word(language))
     }
 
-    /// A speed in cm/s, as a sentence tells it.
-    #[must_use]
-    pub fn told_speed(self, cm_a_second: f64, places: usize, language: Language) -> String {
-        format!("{}/{}", self.told(cm_a_second, places, language), language.pick("с", "s"))
-    }
-
     /// A point in cm, to so many places of a centimetre.
     #[must_use]
     pub fn point(self, x: f64, y: f64, places: usize) -> String {
         format!("({}, {})", self.number(x, places), self.number(y, places))
-    }
-
-    #[must_use]
-    pub fn word(self, language: Language) -> &'static str {
-        match self {
-            Self::Cm => language.pick("см", "cm"),
-            Self::M => language.pick("м", "m"),
-        }
     }
 }
 

@@ -33,6 +33,7 @@ mod source;
 mod stop;
 mod time;
 mod told;
+mod words;
 
 pub use bilingual::Bilingual;
 #[cfg(feature = "packed")]

@@ -4,34 +4,17 @@ use std::fmt;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use super::{Bilingual, Language, Lengths};
+use super::{Language, Lengths};
 
 /// Why a number from outside is no length or no angle.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum QuantityError {
     /// NaN or infinite.
-    #[error("число должно быть конечным, а не {0}")]
     NotFinite(f64),
     /// Beyond [`Cm::LIMIT`], where hundredths of a millimetre would be lost in an `f64` sum.
-    #[error("длина {} больше предела ±{}", cm(*.0, Language::Russian), cm(Cm::LIMIT, Language::Russian))]
     TooLarge(f64),
-}
-
-impl From<QuantityError> for Bilingual {
-    fn from(error: QuantityError) -> Self {
-        let english = match error {
-            QuantityError::NotFinite(value) => format!("a number must be finite, not {value}"),
-            QuantityError::TooLarge(value) => {
-                let (value, limit) =
-                    (cm(value, Language::English), cm(Cm::LIMIT, Language::English));
-                format!("a length of {value} is beyond the limit of ±{limit}")
-            }
-        };
-        Self::new(error.to_string(), english)
-    }
 }
 
 /// A length in centimetres: finite, at most [`Cm::LIMIT`] either way.

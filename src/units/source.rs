@@ -31,18 +31,6 @@ impl OwnText {
     const ALL: [Self; 5] =
         [Self::Order, Self::Edit, Self::Assumption, Self::Measurements, Self::Relations];
 
-    #[must_use]
-    pub fn name(self, language: Language) -> &'static str {
-        let (russian, english) = match self {
-            Self::Order => ("задание", "order"),
-            Self::Edit => ("правка", "edit"),
-            Self::Assumption => ("предположение", "assumption"),
-            Self::Measurements => ("измерения (встроенные)", "measurements (built in)"),
-            Self::Relations => ("rules/relations.dl (встроенный)", "rules/relations.dl (built in)"),
-        };
-        language.pick(russian, english)
-    }
-
     /// The text of this name, in Russian, by which its faults know it.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

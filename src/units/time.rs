@@ -61,8 +61,7 @@ impl fmt::Display for Timestamp {
 }
 
 /// A text that is no moment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("время пишется так: 2026-11-21T09:30:00.000Z")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TimestampError;
 
 impl TryFrom<String> for Timestamp {

@@ -31,13 +31,13 @@ const FUNCTIONS: [&str; 5] = ["GIVEN", "LENGTH", "AREA", "UNIT", "ROUND"];
 
 /// The messages of a crate, in both languages.
 pub struct Messages {
-    texts: [Carried; 2],
+    texts: &'static [[Carried; 2]],
     bundles: [OnceLock<FluentBundle<Arc<FluentResource>>>; 2],
 }
 
 impl Messages {
     #[must_use]
-    pub const fn new(texts: [Carried; 2]) -> Self {
+    pub const fn new(texts: &'static [[Carried; 2]]) -> Self {
         Self { texts, bundles: [const { OnceLock::new() }; 2] }
     }
 
@@ -51,7 +51,9 @@ impl Messages {
             // Marks around arguments would stand in every terminal and log; both languages run the same way.
             bundle.set_use_isolating(false);
             bundle.add_resource_overriding(Arc::clone(&ALIKE[i]));
-            bundle.add_resource_overriding(Arc::new(read(self.texts[i].as_ref())));
+            for text in self.texts {
+                bundle.add_resource_overriding(Arc::new(read(text[i].as_ref())));
+            }
             let given = bundle.add_function("GIVEN", |arguments, _| {
                 let absent = matches!(arguments, [FluentValue::None | FluentValue::Error] | []);
                 FluentValue::from(if absent { "no" } else { "yes" })
@@ -65,8 +67,8 @@ impl Messages {
                 let told = |square_cm| Lengths::said().told_area(square_cm, 0, language);
                 arguments.first().and_then(number).map(told).unwrap_or_default().into()
             });
-            let unit = bundle
-                .add_function("UNIT", move |_, _| Lengths::said().word(language).to_owned().into());
+            let unit =
+                bundle.add_function("UNIT", move |_, _| Lengths::said().word(language).into());
             let round = bundle.add_function("ROUND", |arguments, _| {
                 let told = |value| format!("{value:.0}");
                 arguments.first().and_then(number).map(told).unwrap_or_default().into()
@@ -425,22 +427,28 @@ impl<F: Fault + miette::Diagnostic> InEnglish for F {
     }
 }
 
-/// The messages of a crate: the way from its root to `rules/messages`, its file there, and its faults.
+/// The messages of a crate: the way from its root to `rules/messages`, its files there, and its faults.
 ///
-/// With them comes the test that both languages have every message that a fault or `said!` asks for, and no other.
+/// With them comes the test that both languages have every message that a fault or `said!` asks for, and, where no fault of
+/// another feature is left out, no other.
 #[macro_export]
 macro_rules! messages {
-    ($rules:literal, $file:literal $(, $fault:ty)* $(,)?) => {
-        pub(crate) static MESSAGES: $crate::Messages = $crate::Messages::new([
-            $crate::carried!($rules "/ru/" $file ".ftl"),
-            $crate::carried!($rules "/en/" $file ".ftl"),
-        ]);
-        $(impl $crate::Listed for $fault {})*
+    ($rules:literal, $($file:literal)|+ $(, $(#[$gate:meta])? $fault:ty)* $(,)?) => {
+        pub(crate) static MESSAGES: $crate::Messages = {
+            static TEXTS: [[$crate::Carried; 2]; [$($file),+].len()] = [$([
+                $crate::carried!($rules "/ru/" $file ".ftl"),
+                $crate::carried!($rules "/en/" $file ".ftl"),
+            ]),+];
+            $crate::Messages::new(&TEXTS)
+        };
+        $($(#[$gate])? impl $crate::Listed for $fault {})*
         #[cfg(test)]
         #[test]
         fn both_languages_have_every_message() {
-            let kinds: &[&[$crate::Kind]] = &[$(<$fault as $crate::Fault>::KINDS),*];
-            assert_eq!($crate::amiss_in(&MESSAGES, kinds, env!("CARGO_MANIFEST_DIR")), "");
+            let kinds: &[&[$crate::Kind]] = &[$($(#[$gate])? <$fault as $crate::Fault>::KINDS),*];
+            let all: &[&str] = &[$(stringify!($fault)),*];
+            let is_whole = kinds.len() == all.len();
+            assert_eq!($crate::amiss_in(&MESSAGES, kinds, is_whole, env!("CARGO_MANIFEST_DIR")), "");
         }
     };
 }

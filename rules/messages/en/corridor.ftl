@@ -103,3 +103,6 @@ here-there-may-be = here there may be: { $known }
 a-list = a list [ … ]
 a-text-in-quotation-marks-not-empty = a text in quotation marks, not empty
 an-integer = an integer
+one-of-the-words = one of the words: { $words }
+at-the-goal = The robot is at its goal already.
+no-numbers = none

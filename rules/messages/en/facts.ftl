@@ -237,3 +237,4 @@ directive-endif = #endif
 relation-by = { $name } by { $key }
 relation-in-part = { $relation }: { $part }
 or = {" or "}
+not = {"not "}

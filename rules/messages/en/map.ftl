@@ -303,3 +303,5 @@ only-a-one-way-zone-has-a = only a one-way zone has a heading
 give-either-rooms-or-points = give either rooms or points
 a-moment-is-written-like-this-2026 = a moment is written like this: 2026-11-21T09:30Z
 area-side-or-area-part-side = “area.side” or “area.part.side”
+radius-too-small = the radius { $radius } does not cover it; at least { $reach } is needed (or remove radius)
+or = {" or "}

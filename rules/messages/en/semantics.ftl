@@ -29,3 +29,4 @@ the-threshold-is-given-twice-and = the threshold “{ $name }” is given twice:
 keep-one-here-or = keep one: here or { $place }
 the-limit-of-measuring-cannot-be = the limit of measuring “{ $name }” cannot be { $value }
 it-is = it is { $what }
+semantics-threshold = { $message }

@@ -199,3 +199,5 @@ perhaps-if-not-declare-the-predicates-under = perhaps “{ $near }”? if not, d
 preference-name-condition = (preference name condition)
 define-form = “(define …)”
 opening-bracket = “(”
+keep-one = keep one of the two{ $elsewhere }
+rename-one = rename or remove one of the two{ $elsewhere }

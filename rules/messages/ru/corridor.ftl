@@ -103,3 +103,6 @@ here-there-may-be = здесь бывают: { $known }
 a-list = список [ … ]
 a-text-in-quotation-marks-not-empty = непустая строка в кавычках
 an-integer = целое число
+one-of-the-words = одно из слов: { $words }
+at-the-goal = Робот уже у цели.
+no-numbers = нет

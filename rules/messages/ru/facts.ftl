@@ -237,3 +237,4 @@ directive-endif = #endif
 relation-by = { $name } по { $key }
 relation-in-part = { $relation }: { $part }
 or = {" или "}
+not = {"не "}

@@ -297,3 +297,5 @@ only-a-one-way-zone-has-a = направление задают только о�
 give-either-rooms-or-points = дайте либо rooms, либо points
 a-moment-is-written-like-this-2026 = время пишется так: 2026-11-21T09:30Z
 area-side-or-area-part-side = «помещение.сторона» или «помещение.часть.сторона»
+radius-too-small = radius { $radius } его не покрывает, нужно не меньше { $reach } (или уберите radius)
+or = {" или "}

@@ -36,3 +36,54 @@ it-is-no-answer-to-such-an = это не ответ на такой приказ
 a-quotation-mark-is-not-closed = кавычка не закрыта
 a-command-is-wanted-behind-cmd = после cmd: нужна команда
 tcp-host-port-is-wanted = нужно tcp:УЗЕЛ:ПОРТ
+rest-by-search = {" "} остальное доказал поиск: все планы короче { $steps } исключены
+wishes-met = Желания исполнены все: { $all }.
+wishes-least = меньше нельзя, это доказано
+wishes-maybe-less = можно ли меньше, неизвестно
+wishes-unmet = Желания не исполнены: { $unmet }; всего { $weight }, { $least }.
+and-that = и
+goals-exclude = {"цели исключают друг друга: "}
+goals-out-of-reach = {"цели недостижимы все вместе: "}
+floor-has-no-way = {"по правилам план есть, но на полу нет пути для действий: "}
+no-plan-in-time = время вышло раньше, чем нашёлся план
+no-plan-in-memory = память вышла раньше, чем нашёлся план
+no-plan-within-steps = плана нет в пределах наибольшего числа шагов
+no-plan-before-stop = поиск прерван раньше, чем нашёлся план
+no-plan-in-effort = отведённые усилия потрачены раньше, чем нашёлся план
+proven-steps = { $ended }; доказано, что шагов нужно не меньше { $least }
+tried = испробовано
+ended-by-time = время вышло
+ended-by-memory = память вышла
+ended-by-steps = наибольшее число шагов
+ended-by-stop = поиск прерван
+ended-by-effort = отведённые усилия потрачены
+shorter-plan-open = { $ended } раньше, чем нашёлся план короче или стало ясно, что его нет; шагов нужно от { $at_least } до { $most }
+way-grounding = составление действий по правилам
+way-graph = граф планирования
+way-proof = доказательство кратчайшего
+way-forward = поиск вперёд
+levels = уровней { $levels }
+nodes = узлов { $nodes }
+effort = усилие { $effort }
+times = раз { $times }
+its-range-finder-tells-of = её дальномер молчит
+the-map-has-no-such = такого этажа на карте нет
+sees-several = то, что он видит, подходит к нескольким местам
+sees-too-many = то, что он видит, подходит к слишком многим местам
+sees-too-little = он видит слишком мало, чтобы узнать место
+sees-unsurely = то, что он видит, подходит к одному месту, но не настолько, чтобы в этом быть уверенным
+sees-nowhere = то, что он видит, на карте ни к чему не подходит: карта неверна, или он вне её
+why-so-many-steps = Почему шагов не меньше { $steps }:
+milestones = {"  "}в любом плане одно за другим становится так: { $row }; это уже { $steps ->
+        [one] { $steps } шаг
+        [few] { $steps } шага
+       *[many] { $steps } шагов
+    }
+then = {", затем "}
+goal-alone = {"  "}цель { $goal } одна требует: { $steps ->
+        [one] { $steps } шаг
+        [few] { $steps } шага
+       *[many] { $steps } шагов
+    }
+
+cmd-or-tcp-is-wanted = нужно cmd:КОМАНДА или tcp:УЗЕЛ:ПОРТ

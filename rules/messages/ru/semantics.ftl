@@ -29,3 +29,4 @@ the-threshold-is-given-twice-and = порог «{ $name }» назван два�
 keep-one-here-or = оставьте один: здесь или { $place }
 the-limit-of-measuring-cannot-be = предел измерения «{ $name }» не может быть { $value }
 it-is = это { $what }
+semantics-threshold = { $message }

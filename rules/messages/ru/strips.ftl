@@ -196,3 +196,5 @@ perhaps-if-not-declare-the-predicates-under = может быть, «{ $near }»
 preference-name-condition = (preference имя условие)
 define-form = «(define …)»
 opening-bracket = «(»
+keep-one = оставьте одно из двух{ $elsewhere }
+rename-one = переименуйте или уберите одно из двух{ $elsewhere }

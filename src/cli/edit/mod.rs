@@ -5,14 +5,13 @@
 mod step;
 mod values;
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::engine::{Edited, Error, Format, Mode, change_now};
 use crate::map::{Edits, MapErrors};
-use crate::units::Source;
+use crate::units::{Source, told};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -43,7 +42,7 @@ pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
     let edits = match (&args.step, &args.file) {
         (Some(step), _) => {
             let edit = step.edit().map_err(|error| Error::from(MapErrors::of(*error)))?;
-            Edits::from(vec![edit]).named(common.lang.pick("аргументы", "arguments"))
+            Edits::from(vec![edit]).named(&told!(common.lang.language(), "arguments"))
         }
         (None, Some(file)) => Edits::read(&read(file)?, Format::of(file)),
         (None, None) => Edits::from(Vec::new()),
@@ -66,32 +65,19 @@ fn read(file: &Path) -> Result<Source, Failure> {
 
 fn told(edited: &Edited, lang: Lang) -> String {
     if edited.differences.is_empty() {
-        return lang.pick("Ничего не меняется.", "Nothing changes.").to_owned();
+        return told!(lang.language(), "nothing-changes");
     }
     let mut text: String =
         edited.differences.iter().map(|d| d.say(lang.language()) + "\n").collect();
     if !edited.left_behind.is_empty() {
         let names = edited.left_behind.join(", ");
-        let _ = match lang {
-            Lang::Ru if edited.left_behind.len() == 1 => writeln!(
-                text,
-                "{names} остаётся на прежнем месте, хотя опора уходит; --carry перенесёт и это."
-            ),
-            Lang::Ru => writeln!(
-                text,
-                "{names} остаются на прежних местах, хотя опора уходит; --carry перенесёт и их."
-            ),
-            Lang::En => writeln!(
-                text,
-                "Stays behind, though what bears it goes: {names}; --carry takes it along."
-            ),
-        };
+        let count = edited.left_behind.len();
+        text += &told!(lang.language(), "left-behind", count, names);
+        text.push('\n');
     }
-    text.push_str(&match (&edited.report, lang) {
-        (Some(report), Lang::Ru) => format!("Правка {} записана.", report.revision),
-        (Some(report), Lang::En) => format!("Revision {} is written.", report.revision),
-        (None, Lang::Ru) => "Всё верно; ничего не записано.".to_owned(),
-        (None, Lang::En) => "All is right; nothing was written.".to_owned(),
+    text.push_str(&match &edited.report {
+        Some(report) => told!(lang.language(), "edit-written", revision = report.revision),
+        None => told!(lang.language(), "edit-right"),
     });
     text
 }

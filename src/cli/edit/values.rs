@@ -6,6 +6,7 @@ use crate::map::schema::{
     SideTraitsFile, StatusFile, Table, pair,
 };
 use crate::map::{Edit, MapError, NewRecord};
+use crate::units::said;
 
 use super::step::{Group, Names, Numbers, Step};
 
@@ -92,7 +93,7 @@ fn regular(told: &Numbers) -> Told<RegularFile> {
     let [corners, radius] = pair(&numbers(told)?)?;
     let (what, value) = ("corners".into(), corners.get());
     if value.fract() != 0.0 || value < 0.0 {
-        let range = ("целое от 3 до 360", "whole, from 3 to 360").into();
+        let range = said!("whole-from-3-to-360");
         return Err(Box::new(MapError::OutOfRange { what, value, range }));
     }
     Ok(RegularFile { corners: value as u32, radius })

@@ -10,7 +10,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::geometry::{Bounds, Polygon, Scene};
 use crate::map::{DoorStatus, World};
-use crate::units::{InOrder as _, Language, Lengths, Point, Pose, Vector};
+use crate::units::{InOrder as _, Language, Lengths, Point, Pose, Vector, told};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
@@ -155,17 +155,12 @@ impl ViewDrawing<'_> {
             Language::English if !area.name_en.is_empty() => &area.name_en,
             _ => &area.name,
         });
-        let whole = |v: f64| v.round() as i64;
         let lengths = Lengths::said();
         let [x, y] = [self.pose.at.x, self.pose.at.y]
             .map(|at| lengths.in_language(at.round() + 0.0, 0, self.language));
-        let unit = lengths.word(self.language);
         let height = lengths.told(self.height.round() + 0.0, 0, self.language);
-        let (turn, field) = (whole(self.pose.heading.get()), whole(self.field));
-        self.language.pick(
-            format!("Вид. {name}: ({x}; {y}) {unit}, курс {turn}°, глаз на высоте {height}, угол обзора {field}°"),
-            format!("View. {name}: ({x}, {y}) {unit}, heading {turn}°, eye {height} above zero, angle of view {field}°"),
-        )
+        let [heading, field] = [self.pose.heading.get(), self.field].map(|v| v.round() as i64);
+        told!(self.language, "view", room = name, x, y, heading, height, field)
     }
 
     fn paint(&self, canvas: &mut Canvas, camera: &Camera, facet: &Facet, body: &Body) {

@@ -44,7 +44,7 @@ use crate::language::question::{
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
 use crate::store::StoreError;
-use crate::units::Stop;
+use crate::units::{Stop, told};
 
 use super::narration::nothing_to_stop;
 use super::task::{OPERATOR, Progress};
@@ -302,10 +302,7 @@ impl Hearing<'_, '_> {
         let language = self.spoken(line);
         match (said, refusal, offered) {
             (Some(Aside::Why), Some(reason), _) => {
-                let text = match language {
-                    Language::Russian => format!("Вот причина: {reason}"),
-                    Language::English => format!("The reason: {reason}"),
-                };
+                let text = told!(language, "the-reason", reason);
                 return self.put(Outcome::Reason, &text, language);
             }
             (Some(Aside::Yes), _, Some(Offered::Order(meant))) => return self.obey(&meant, true),
@@ -342,11 +339,8 @@ impl Hearing<'_, '_> {
             return self.hear(order);
         }
         if let (Some(Aside::Yes | Aside::No), false) = (said, awaited) {
-            let text = language.pick(
-                "Я ни о чём не спрашивал. Спросите или прикажите.",
-                "I asked nothing. Ask or command.",
-            );
-            return self.put(Outcome::NothingOffered, text, language);
+            let text = told!(language, "i-asked-nothing-ask-or");
+            return self.put(Outcome::NothingOffered, &text, language);
         }
         if self.headed(line)? {
             return Ok(());
@@ -500,12 +494,7 @@ impl Hearing<'_, '_> {
             return self.reply(reply);
         };
         let (said, language) = (&line[at.clone()], Language::of(line));
-        let text = match language {
-            Language::Russian => format!("Я не понимаю слова «{said}». Может быть, «{verb}»?"),
-            Language::English => {
-                format!("I do not understand the word \"{said}\". Do you mean \"{verb}\"?")
-            }
-        };
+        let text = told!(language, "do-you-mean", said, verb);
         let mut order = line.to_owned();
         order.replace_range(at, verb);
         self.dialogue.offered = Some(Offered::Order(order.clone()));
@@ -629,10 +618,10 @@ impl Hearing<'_, '_> {
     fn stop(&mut self, waited: bool, language: Language) -> Result<(), Error> {
         self.dialogue.memory.forget_reply();
         let text = match waited {
-            true => language.pick("Хорошо, отменено.", "All right, that is cancelled."),
+            true => told!(language, "all-right-that-is-cancelled"),
             false => nothing_to_stop(language),
         };
-        self.put(Outcome::Stopped { waited }, text, language)
+        self.put(Outcome::Stopped { waited }, &text, language)
     }
 
     fn refuse(&mut self, error: Error, language: Language) -> Result<(), Error> {
@@ -658,10 +647,7 @@ impl Hearing<'_, '_> {
 
     fn not_begun(&mut self, order: &str) -> Result<(), Error> {
         let (language, said) = (self.spoken(order), order.trim_end_matches('.'));
-        let text = match language {
-            Language::Russian => format!("Не начато: «{said}»."),
-            Language::English => format!("Not begun: \"{said}\"."),
-        };
+        let text = told!(language, "not-begun", said);
         self.put(Outcome::NotBegun { order: order.to_owned() }, &text, language)
     }
 

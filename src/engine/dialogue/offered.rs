@@ -3,6 +3,7 @@
 use crate::language::Language;
 use crate::language::command::is_order;
 use crate::language::question::{Aside, Conditional, Doubt, Unanswered, rank_alone};
+use crate::units::told;
 
 use super::{Dialogue, Engine, Error, Hearing, Outcome, Reply};
 
@@ -89,10 +90,7 @@ impl Hearing<'_, '_> {
         told: &str,
         language: Language,
     ) -> Result<(), Error> {
-        let text = match language {
-            Language::Russian => format!("{told} Выполнить: «{order}»?"),
-            Language::English => format!("{told} Shall I do this: \"{order}\"?"),
-        };
+        let text = told!(language, "shall-i-do-this", told, order);
         self.dialogue.offered = Some(Offered::Order(order.clone()));
         self.put(Outcome::Offered { order }, &text, language)
     }

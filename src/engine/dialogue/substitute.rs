@@ -7,7 +7,7 @@ use crate::language::command::Misheard;
 use crate::language::question::{Doubt, Noun};
 use crate::language::{Case, Language, word_ranges};
 use crate::map::Entity;
-use crate::units::{ReplicaId, name_key};
+use crate::units::{ReplicaId, name_key, told};
 
 use super::super::lexicon::named;
 use super::{Hearing, Outcome};
@@ -33,12 +33,7 @@ impl Hearing<'_, '_> {
             let name = named(self.engine.world()?, Entity::Replica(substitute));
             let name = name.form(Case::Nominative, language);
             let none = unanswered.text.trim_end_matches('.');
-            let text = match language {
-                Language::Russian => format!("{none}; подойдёт {name}. Выполнить: «{order}»?"),
-                Language::English => {
-                    format!("{none}; {name} would serve. Shall I do this: \"{order}\"?")
-                }
-            };
+            let text = told!(language, "would-serve-shall-i-do", none, name, order);
             self.dialogue.offered = Some(super::Offered::Order(order.clone()));
             self.put(Outcome::Offered { order }, &text, language)?;
             return Ok(true);

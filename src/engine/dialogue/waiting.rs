@@ -7,6 +7,7 @@ use crate::language::Language;
 use crate::language::command::{Command, Waiting};
 use crate::language::question::Memory;
 use crate::map::Entity;
+use crate::units::told;
 
 use super::{Given, Hearing, Outcome};
 
@@ -27,11 +28,8 @@ impl Hearing<'_, '_> {
         match said {
             Waiting::Pause => {
                 self.engine.pause_queue(true, OPERATOR)?;
-                let text = language.pick(
-                    "Пауза: новые задания ждут, пока вы не скажете «продолжай».",
-                    "Paused: new tasks wait until you say \"resume\".",
-                );
-                self.put(Outcome::Paused, text, language)?;
+                let text = told!(language, "paused-until");
+                self.put(Outcome::Paused, &text, language)?;
             }
             Waiting::Resume => self.go_on(language)?,
             Waiting::List => {
@@ -50,19 +48,13 @@ impl Hearing<'_, '_> {
                 let text =
                     queue.tasks.iter().find(|task| task.id == dropped).map(|t| t.text.as_str());
                 let text = text.unwrap_or_default();
-                let text = match language {
-                    Language::Russian => format!("Отменено: «{text}»."),
-                    Language::English => format!("Cancelled: \"{text}\"."),
-                };
+                let text = told!(language, "cancelled", text);
                 self.put(Outcome::Cancelled { tasks: vec![dropped] }, &text, language)?;
             }
             Waiting::CancelAll => {
                 let tasks: Vec<u32> = queue.tasks.iter().map(|task| task.id).collect();
                 self.engine.put_queue(Queue { tasks: Vec::new(), ..queue }, OPERATOR)?;
-                let text = match language {
-                    Language::Russian => format!("Отменено заданий: {}.", tasks.len()),
-                    Language::English => format!("Cancelled, tasks: {}.", tasks.len()),
-                };
+                let text = told!(language, "cancelled-tasks-tasks", tasks = tasks.len());
                 self.put(Outcome::Cancelled { tasks }, &text, language)?;
             }
             Waiting::Add(order) => self.wait(order, language)?,
@@ -79,10 +71,7 @@ impl Hearing<'_, '_> {
         match self.engine.enqueue(order, OPERATOR) {
             Ok(task) => {
                 let waiting = self.engine.queue()?.tasks.len();
-                let text = match language {
-                    Language::Russian => format!("Ждёт в очереди: «{order}» (всего {waiting})."),
-                    Language::English => format!("Waiting: \"{order}\" ({waiting} in all)."),
-                };
+                let text = told!(language, "waiting-in-all", order, waiting);
                 self.put(Outcome::Queued { task: task.id }, &text, language)
             }
             Err(error) => self.refuse(error, language),
@@ -133,10 +122,7 @@ impl Hearing<'_, '_> {
             }
             let (id, text) = (task.id, task.text.clone());
             let spoken = Language::of(&text);
-            let begun = match spoken {
-                Language::Russian => format!("Начинаю: «{text}»."),
-                Language::English => format!("I begin: \"{text}\"."),
-            };
+            let begun = told!(spoken, "i-begin", text);
             (self.tell)(self.engine, &super::Event::Ordered(&text));
             self.put(Outcome::Begun { task: id }, &begun, spoken)?;
             match self.engine.understand_in(&text, &mut Memory::default()) {
@@ -162,21 +148,18 @@ impl Hearing<'_, '_> {
 #[must_use]
 pub(crate) fn queue_in_words(queue: &Queue, language: Language) -> String {
     if queue.tasks.is_empty() {
-        return language.pick("В очереди ничего нет.", "Nothing is waiting.").to_owned();
+        return told!(language, "nothing-is-waiting");
     }
     let paused = match queue.paused {
-        Some(_) => language.pick(", пауза", ", paused"),
-        None => "",
+        Some(_) => told!(language, "paused"),
+        None => String::new(),
     };
     let count = queue.tasks.len();
-    let mut lines = vec![match language {
-        Language::Russian => format!("В очереди заданий: {count}{paused}."),
-        Language::English => format!("Tasks waiting: {count}{paused}."),
-    }];
+    let mut lines = vec![told!(language, "tasks-waiting", count, paused)];
     for (n, task) in queue.tasks.iter().enumerate() {
         let begun = match task.is_begun {
-            true => language.pick(" (начато)", " (begun)"),
-            false => "",
+            true => told!(language, "begun"),
+            false => String::new(),
         };
         lines.push(match language {
             Language::Russian => format!("  {}. «{}»{begun}", n + 1, task.text),

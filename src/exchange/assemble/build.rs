@@ -11,8 +11,8 @@ use crate::map::{
 use crate::report::{What, Why};
 use crate::synonyms::{Synonyms, Vocabulary};
 use crate::units::{
-    AreaId, Bilingual, Cm, Deg, DoorId, Frame, Gather as _, Language, MapId, OrFrId, PlaceId,
-    Point, TypeId, capitalized,
+    AreaId, Cm, Deg, DoorId, Frame, Gather as _, MapId, OrFrId, PlaceId, Point, TypeId,
+    capitalized, said, word,
 };
 use crate::{ImportError, Level, OpeningKind, Report, Room, Survey};
 
@@ -160,17 +160,8 @@ impl Maker<'_> {
         if self.world.maps.is_empty() {
             return Err(ImportError::content(
                 "import",
-                Bilingual::new(
-                    format!("в файле нет ни одного пригодного помещения\n{}", self.report),
-                    format!(
-                        "the file has no room that could be used\n{}",
-                        self.report.say(Language::English)
-                    ),
-                ),
-                (
-                    "проверьте файл: помещения - это контуры, грани стен или записи комнат",
-                    "check the file: rooms are outlines, faces of walls or records of rooms",
-                ),
+                said!("no-room-of-use", report = *self.report),
+                word!("check-the-file-rooms-are"),
             ));
         }
         Ok(storeys)

@@ -6,7 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::map::plane::{bounds, doubled_area};
 use crate::map::{Face, Item, ItemLink, Permeability, SideRef};
 use crate::report::{What, Why};
-use crate::units::{Cm, Deg, Frame, InOrder as _, Point, Vector};
+use crate::units::{Cm, Deg, Frame, InOrder as _, Point, Vector, said, word};
 use crate::{Kind, Part, Report};
 
 use super::names::letters;
@@ -128,16 +128,8 @@ fn thickened(outline: &[Point]) -> Option<Ring> {
 }
 
 fn flat_part(part: &Part, kind: &Kind, report: &mut Report) {
-    let what = if part.word.is_empty() {
-        ("часть вида", "a part of the kind")
-    } else {
-        ("часть", "a part")
-    };
-    let value = if part.word.is_empty() {
-        ("без площади", "without area").into()
-    } else {
-        part.word.clone().into()
-    };
+    let what = if part.word.is_empty() { word!("a-part-of-the-kind") } else { word!("a-part") };
+    let value = if part.word.is_empty() { said!("without-area") } else { part.word.clone().into() };
     report.mended(What::Kind, &kind.source, Why::BadValue { what: what.into(), value });
 }
 

@@ -25,6 +25,7 @@ mod types;
 mod wall;
 
 use crate::map::{Fault, MapErrors, World, check};
+use crate::units::word;
 
 use super::synonyms::Synonyms;
 use super::{ImportError, Report, Survey};
@@ -42,10 +43,10 @@ pub fn assemble(
     report: &mut Report,
 ) -> Result<World, ImportError> {
     for (what, count) in [
-        (("помещений", "rooms"), survey.levels.iter().map(|l| l.rooms.len()).sum::<usize>()),
-        (("проёмов", "openings"), survey.levels.iter().map(|l| l.openings.len()).sum()),
-        (("вещей", "things"), survey.levels.iter().map(|l| l.things.len()).sum()),
-        (("видов вещей", "kinds of things"), survey.kinds.len()),
+        (word!("rooms"), survey.levels.iter().map(|l| l.rooms.len()).sum::<usize>()),
+        (word!("openings"), survey.levels.iter().map(|l| l.openings.len()).sum()),
+        (word!("things"), survey.levels.iter().map(|l| l.things.len()).sum()),
+        (word!("kinds-of-things"), survey.kinds.len()),
     ] {
         if count > MOST_RECORDS {
             return Err(ImportError::Limit { what: what.into(), count, limit: MOST_RECORDS });

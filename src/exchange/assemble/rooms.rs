@@ -2,6 +2,7 @@
 
 use crate::map::plane::{bounds, edges};
 use crate::report::{What, Why};
+use crate::units::said;
 use crate::{Level, Report, Room};
 
 use super::index::Index;
@@ -37,10 +38,7 @@ pub(super) fn floors(level: &Level, report: &mut Report) -> Floors {
             report.skipped(
                 What::Room,
                 &room.source,
-                Why::BadValue {
-                    what: ("число углов", "number of corners").into(),
-                    value: value.into(),
-                },
+                Why::BadValue { what: said!("number-of-corners"), value: value.into() },
             );
             regions.push(None);
             continue;

@@ -9,9 +9,7 @@ use crate::map::plane::{bounds, doubled_area, edges, meeting};
 use crate::map::{BaseVector, Forms, Mark, Object, Place, Properties, Replica, TypeKind};
 use crate::report::{What, Why};
 use crate::synonyms::{Meaning, Vocabulary};
-use crate::units::{
-    Frame, Lengths, ObjectId, PlaceId, Point, ReplicaId, Vector, bilingual, capitalized,
-};
+use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, capitalized, said};
 use crate::{Kind, Level, Spot, Thing};
 
 use super::build::{Maker, Storey};
@@ -223,11 +221,7 @@ impl Maker<'_> {
         if share(room, &made.bases(&moved)) < LEAST_SHARE {
             return None;
         }
-        let [ru, en] = Lengths::said().both(shift.norm(), 0);
-        let text = bilingual!(
-            "стояло в стене; сдвинуто в помещение на {ru}",
-            "stood in the wall; moved into the room by {en}"
-        );
+        let text = said!("moved-out-of-the-wall", by = shift.norm());
         self.report.mended(What::Thing, &thing.source, Why::Other { text });
         Some((room, moved))
     }

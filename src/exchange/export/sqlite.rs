@@ -9,83 +9,52 @@
 
 use std::path::Path;
 
-use miette::Diagnostic;
 use rusqlite::types::{Value, ValueRef};
 use rusqlite::{Connection, OpenFlags};
-use thiserror::Error;
 
 use crate::LARGEST;
 use crate::map::World;
 use crate::store::{Cell, Column, Key, Kind, Origin, Reader, Row, Sheet, StoreError, Table};
-use crate::units::{Bilingual, InEnglish, Language, bilingual};
+use crate::units::{Bilingual, Fault, Piece, said, word};
 
 /// Rows of one file.
 const MOST_ROWS: usize = 5_000_000;
 
 /// An SQLite file that cannot be written or read.
-#[derive(Debug, Error, Diagnostic)]
+#[derive(Debug, Fault)]
+#[fault(exchange)]
 #[non_exhaustive]
 pub enum SqliteError {
     /// SQLite itself refused.
-    #[error("SQLite, «{path}»: {source}")]
-    #[diagnostic(
-        code(exchange::sqlite),
-        help("проверьте, что это файл SQLite и что он не повреждён")
-    )]
-    Sqlite { path: String, source: rusqlite::Error },
+    Sqlite {
+        path: String,
+        reason: String,
+        #[fault(untold)]
+        source: rusqlite::Error,
+    },
 
     /// An export never writes over a file.
-    #[error("файл «{path}» уже есть")]
-    #[diagnostic(code(exchange::sqlite_exists), help("назовите новый файл или удалите этот"))]
+    #[fault(code = "exchange::sqlite_exists")]
     Exists { path: String },
 
     /// Something else than tables with rows.
-    #[error("«{path}»: {what}")]
-    #[diagnostic(
-        code(exchange::sqlite_content),
-        help("нужны таблицы статьи с её полями; образец – ortho export --sqlite")
-    )]
+    #[fault(code = "exchange::sqlite_content")]
     Content { path: String, what: Bilingual },
 
     /// More than any building.
-    #[error("«{path}»: {what} больше {limit}")]
-    #[diagnostic(code(exchange::sqlite_limit), help("разделите базу на несколько"))]
-    Limit { path: String, what: Bilingual, limit: u64 },
+    #[fault(code = "exchange::sqlite_limit")]
+    Limit { path: String, what: Piece, limit: u64 },
 
     /// A row that makes no record.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
+    #[fault(transparent)]
     Store(#[from] StoreError),
 }
 
-impl InEnglish for SqliteError {
-    fn english(&self) -> String {
-        match self {
-            Self::Sqlite { path, source } => format!("SQLite, “{path}”: {source}"),
-            Self::Exists { path } => format!("the file “{path}” is there already"),
-            Self::Content { path, what } => format!("“{path}”: {}", what.say(Language::English)),
-            Self::Limit { path, what, limit } => {
-                format!("“{path}”: more than {limit} {}", what.say(Language::English))
-            }
-            Self::Store(error) => error.english(),
-        }
-    }
-
-    fn english_help(&self) -> Option<String> {
-        let help = match self {
-            Self::Sqlite { .. } => "see that it is an SQLite file, and not damaged",
-            Self::Exists { .. } => "name a new file, or remove this one",
-            Self::Content { .. } => {
-                "the paper’s tables with their fields are needed; an example: ortho export --sqlite"
-            }
-            Self::Limit { .. } => "divide the database into several",
-            Self::Store(error) => return error.english_help(),
-        };
-        Some(help.to_owned())
-    }
-}
-
 impl SqliteError {
+    fn of(path: &str, source: rusqlite::Error) -> Self {
+        Self::Sqlite { path: path.to_owned(), reason: source.to_string(), source }
+    }
+
     /// What was asked for is at fault, not the disk.
     #[must_use]
     pub fn is_input(&self) -> bool {
@@ -192,7 +161,7 @@ fn journal_of(path: &Path) -> std::path::PathBuf {
 
 fn write_tables(path: &Path, reader: &Reader, world: &World) -> Result<(), SqliteError> {
     let shown = path.display().to_string();
-    let failed = |source| SqliteError::Sqlite { path: shown.clone(), source };
+    let failed = |source| SqliteError::of(&shown, source);
     let derived = Sheet::derived(world)?;
     let mut connection = Connection::open(path).map_err(failed)?;
     let transaction = connection.transaction().map_err(failed)?;
@@ -237,18 +206,14 @@ fn file_name(path: &Path) -> String {
 /// [`SqliteError`] when the file is none, lacks the paper's tables or columns, or has a row that makes no record.
 pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
     let shown = path.display().to_string();
-    let failed = |source| SqliteError::Sqlite { path: shown.clone(), source };
+    let failed = |source| SqliteError::of(&shown, source);
     let content = |what: Bilingual| SqliteError::Content { path: shown.clone(), what };
-    let limit = |what: (&'static str, &'static str), limit| SqliteError::Limit {
-        path: shown.clone(),
-        what: what.into(),
-        limit,
-    };
+    let limit = |what, limit| SqliteError::Limit { path: shown.clone(), what, limit };
     let bytes = match std::fs::metadata(path) {
-        Ok(data) if data.len() > LARGEST => return Err(limit(("байт", "bytes"), LARGEST)),
+        Ok(data) if data.len() > LARGEST => return Err(limit(word!("bytes"), LARGEST)),
         // Opening a pipe could wait for ever.
         Ok(data) if !data.is_file() => {
-            return Err(content(("это не файл", "this is no file").into()));
+            return Err(content(said!("no-file")));
         }
         Ok(data) => data.len(),
         Err(e) => return Err(content(e.to_string().into())),
@@ -266,33 +231,20 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
     if bytes < whole.unsigned_abs()
         && !path.with_file_name(format!("{}-wal", file_name(path))).exists()
     {
-        return Err(content(bilingual!(
-            "файл обрезан: в нём {bytes} байт из {whole}",
-            "the file is cut off: it has {bytes} bytes of {whole}"
-        )));
+        return Err(content(said!("cut-off", bytes, whole)));
     }
     let mut sheet = Sheet::default();
     let mut rows = 0_usize;
     for table in tables().filter(|t| t.is_stored()) {
         let Some(columns) = columns_of(&connection, table).map_err(failed)? else {
             if table.origin() == Origin::Paper {
-                return Err(content(bilingual!(
-                    "нет таблицы {}",
-                    "the table {} is missing",
-                    table.name()
-                )));
+                return Err(content(said!("no-table", table = table.name())));
             }
             continue;
         };
         let has = |name: &str| columns.iter().any(|c| c.eq_ignore_ascii_case(name));
         if let Some(missing) = table.columns().iter().find(|c| !c.is_beyond && !has(c.name)) {
-            let what = bilingual!(
-                "в таблице {} нет поля {}",
-                "the table {} lacks the field {}",
-                table.name(),
-                missing.name
-            );
-            return Err(content(what));
+            return Err(content(said!("no-column", table = table.name(), column = missing.name)));
         }
         let present: Vec<bool> = table.columns().iter().map(|c| has(c.name)).collect();
         let names = table.columns().iter().filter(|c| has(c.name)).map(|c| quoted(c.name));
@@ -304,7 +256,7 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
         while let Some(record) = found.next().map_err(failed)? {
             rows += 1;
             if rows > MOST_ROWS {
-                return Err(limit(("записей", "records"), MOST_ROWS as u64));
+                return Err(limit(word!("records"), MOST_ROWS as u64));
             }
             let mut index = 0;
             let mut row = Row::new();
@@ -316,12 +268,7 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
                 let value = record.get_ref(index).map_err(failed)?;
                 index += 1;
                 let cell = cell(value, column).ok_or_else(|| {
-                    content(bilingual!(
-                        "таблица {}: поле {} не читается",
-                        "table {}: the field {} cannot be read",
-                        table.name(),
-                        column.name
-                    ))
+                    content(said!("unreadable-column", table = table.name(), column = column.name))
                 })?;
                 row.push(cell);
             }

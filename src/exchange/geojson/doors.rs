@@ -2,7 +2,7 @@
 
 use crate::geometry::nearest_on_segment;
 use crate::map::{DoorKind, DoorStatus};
-use crate::units::{Bilingual, Cm, Language, Lengths, Point, bilingual};
+use crate::units::{Bilingual, Cm, Point, said};
 use crate::{Opening, OpeningKind, ReadError, outline};
 
 use super::classify::Class;
@@ -31,7 +31,7 @@ impl Reader {
             let limit = MOST_PAIRS;
             return Err(ReadError::TooMany {
                 format: FORMAT,
-                what: ("пар дверь–помещение", "pairs of door and room").into(),
+                what: said!("pairs-of-door-and-room"),
                 limit,
             });
         }
@@ -48,13 +48,7 @@ impl Reader {
                         let opening = opening(feature, class, jambs, self.tongue.name(feature));
                         self.survey.levels[level].openings.push(opening);
                     }
-                    Err(why) => self.remark(
-                        &feature.id,
-                        Bilingual::new(
-                            format!("дверь пропущена: {}", why.say(Language::Russian)),
-                            format!("the door is left out: {}", why.say(Language::English)),
-                        ),
-                    ),
+                    Err(why) => self.remark(&feature.id, said!("door-left-out", why)),
                 }
             }
         }
@@ -70,13 +64,9 @@ impl Reader {
         let sound = |jambs: [Point; 2]| {
             let fit = jambs.iter().all(|p| Cm::new(p.x).is_ok() && Cm::new(p.y).is_ok());
             if !fit {
-                Err(bilingual!(
-                    "координаты – не числа плана",
-                    "its coordinates are no numbers of a plan"
-                ))
+                Err(said!("its-coordinates-are-no-numbers"))
             } else if (jambs[1] - jambs[0]).norm() < NARROWEST {
-                let [ru, en] = Lengths::said().both(NARROWEST, 0);
-                Err(bilingual!("она уже {ru}", "it is narrower than {en}"))
+                Err(said!("door-too-narrow", least = NARROWEST))
             } else {
                 Ok(jambs)
             }
@@ -84,32 +74,27 @@ impl Reader {
         match &feature.shape {
             Some(Shape::Lines(lines)) => {
                 let ends = lines.first().and_then(|l| l.first().copied().zip(l.last().copied()));
-                let (a, b) =
-                    ends.ok_or_else(|| bilingual!("у линии нет точек", "the line has no points"))?;
+                let (a, b) = ends.ok_or_else(|| said!("the-line-has-no-points"))?;
                 sound([self.ground.place(a), self.ground.place(b)])
             }
             Some(Shape::Polygons(polygons)) => {
-                let ring = polygons.first().and_then(|p| p.first()).ok_or_else(|| {
-                    bilingual!("у контура нет точек", "the outline has no points")
-                })?;
+                let ring = polygons
+                    .first()
+                    .and_then(|p| p.first())
+                    .ok_or_else(|| said!("the-outline-has-no-points"))?;
                 let ring = outline::ring(self.points(ring))
-                    .ok_or_else(|| bilingual!("контур вырожден", "the outline has no area"))?;
-                sound(
-                    outline::long_axis(&ring)
-                        .ok_or_else(|| bilingual!("контур вырожден", "the outline has no area"))?,
-                )
+                    .ok_or_else(|| said!("the-outline-has-no-area"))?;
+                sound(outline::long_axis(&ring).ok_or_else(|| said!("the-outline-has-no-area"))?)
             }
             Some(Shape::Points(points)) => {
-                let at = self.ground.place(
-                    *points
-                        .first()
-                        .ok_or_else(|| bilingual!("у неё нет места", "it has no place"))?,
-                );
-                sound(self.in_wall(feature, at, level, bounds).ok_or_else(|| {
-                    bilingual!("рядом нет стены помещения", "no wall of a room is near")
-                })?)
+                let at =
+                    self.ground.place(*points.first().ok_or_else(|| said!("it-has-no-place"))?);
+                sound(
+                    self.in_wall(feature, at, level, bounds)
+                        .ok_or_else(|| said!("no-wall-of-a-room"))?,
+                )
             }
-            None => Err(bilingual!("у неё нет места", "it has no place")),
+            None => Err(said!("it-has-no-place")),
         }
     }
 

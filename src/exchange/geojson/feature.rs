@@ -12,7 +12,7 @@ use serde::de::{Deserializer, IgnoredAny, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use crate::units::{Bilingual, Language, Source, bilingual};
+use crate::units::{Bilingual, Source, said, word};
 use crate::{ReadError, Remark};
 
 pub(super) const FORMAT: &str = "GeoJSON";
@@ -175,22 +175,15 @@ pub(super) fn features(
         (None, kind) => {
             let what = match kind {
                 Some(kind) => {
-                    bilingual!(
-                        "«type» здесь «{}», а нужен FeatureCollection",
-                        "“type” is “{}” here, and FeatureCollection is needed",
-                        shorten(kind)
-                    )
+                    said!("type-is-here-and-featurecollection", shorten = shorten(kind))
                 }
-                None => {
-                    ("нет членов «type» и «features»", "there are no members “type” and “features”")
-                        .into()
-                }
+                None => word!("there-are-no-members-type").into(),
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }
     };
     if raw.len() > MOST_FEATURES {
-        let what = ("записей (features)", "records (features)").into();
+        let what = said!("records-features");
         return Err(ReadError::TooMany { format: FORMAT, what, limit: MOST_FEATURES });
     }
     let mut features = Vec::with_capacity(raw.len());
@@ -199,10 +192,7 @@ pub(super) fn features(
             Ok(feature) => features.push(feature),
             Err(why) => remarks.push(Remark {
                 source: format!("features[{no}]"),
-                text: Bilingual::new(
-                    format!("запись пропущена: {why}"),
-                    format!("the record is left out: {}", why.say(Language::English)),
-                ),
+                text: said!("record-left-out", why),
             }),
         }
     }
@@ -222,10 +212,7 @@ fn feature(text: &str, no: usize) -> Result<Feature, Bilingual> {
 
 fn shape(raw: &RawGeometry<'_>) -> Result<Shape, Bilingual> {
     fn coordinates<'a, T: Deserialize<'a>>(raw: &RawGeometry<'a>) -> Result<T, Bilingual> {
-        let text = raw
-            .coordinates
-            .ok_or(("у геометрии нет координат", "the geometry has no coordinates"))?
-            .get();
+        let text = raw.coordinates.ok_or(word!("the-geometry-has-no-coordinates"))?.get();
         serde_json::from_str(text).map_err(|e| {
             let (kind, reason) = (shorten(&raw.kind), reason(&e));
             Bilingual::both(|language| format!("{kind}: {}", reason.say(language)))
@@ -244,11 +231,7 @@ fn shape(raw: &RawGeometry<'_>) -> Result<Shape, Bilingual> {
             Shape::Polygons(polygons.into_iter().map(lines).collect())
         }
         other => {
-            return Err(bilingual!(
-                "геометрия «{}» не поддерживается",
-                "the geometry “{}” is not read",
-                shorten(other)
-            ));
+            return Err(said!("the-geometry-is-not-read", shorten = shorten(other)));
         }
     })
 }
@@ -269,11 +252,7 @@ fn reason(error: &serde_json::Error) -> Bilingual {
     let text = error.to_string();
     let end = text.rfind(" at line ").unwrap_or(text.len());
     let said = shorten(&text[..end]);
-    if error.is_eof() {
-        bilingual!("текст оборван ({said})", "the text is cut off ({said})")
-    } else {
-        said.into()
-    }
+    if error.is_eof() { said!("the-text-is-cut-off", said) } else { said.into() }
 }
 
 /// A word from a file for a message: at most 60 letters of it.

@@ -5,7 +5,7 @@
 //! and is no larger than a town, else by the size of a room.
 
 use crate::outline;
-use crate::units::{Bilingual, Point, bilingual};
+use crate::units::{Bilingual, Piece, Point, said, word};
 
 use super::feature::{Position, Surroundings};
 
@@ -44,7 +44,7 @@ impl Ground {
         if points.is_empty() {
             return (
                 Self::Plane { scale: 100.0, origin: [0.0, 0.0] },
-                ("координат нет", "there are no coordinates").into(),
+                said!("there-are-no-coordinates"),
             );
         }
         let (low, high) = outline::bounds(&points);
@@ -52,16 +52,14 @@ impl Ground {
         let crs = around.crs.to_uppercase();
         let is_mercator = crs.contains("3857") || crs.contains("900913");
         let says_degrees = crs.contains("CRS84") || crs.contains("4326");
-        let plane = |scale: f64, (says, says_en): Both| {
+        let plane = |scale: f64, unit: Piece| {
             let far = low.coords.amax().max(high.coords.amax()) * scale > FAR;
             let origin = if far { [low.x.floor(), low.y.floor()] } else { [0.0, 0.0] };
-            let [mut moved, mut moved_en] = [String::new(), String::new()];
-            if far {
-                moved = format!("; начало координат – {}, {}", origin[0], origin[1]);
-                moved_en = format!("; the origin is {}, {}", origin[0], origin[1]);
-            }
-            let told =
-                bilingual!("координаты – {says}{moved}", "the coordinates are {says_en}{moved_en}");
+            let [x, y] = origin;
+            let told = match far {
+                true => said!("coordinates-moved", unit, x, y),
+                false => said!("coordinates", unit),
+            };
             (Self::Plane { scale, origin }, told)
         };
         if let Some((scale, says)) = unit(&around.units) {
@@ -70,9 +68,10 @@ impl Ground {
         if is_imdf || says_degrees || (crs.is_empty() && in_range && span <= LARGEST_SPAN) {
             let middle = low + (high - low) / 2.0;
             let (lon, lat) = (middle.x, middle.y.clamp(-89.0, 89.0));
-            let says = bilingual!(
-                "координаты – градусы; начало плана – {lon:.7}° в. д., {lat:.7}° с. ш.",
-                "the coordinates are degrees; the origin of the plan is {lon:.7}° E, {lat:.7}° N"
+            let says = said!(
+                "the-coordinates-are-degrees-the",
+                lon = format!("{lon:.7}"),
+                lat = format!("{lat:.7}")
             );
             return (Self::Degrees { lon, lat }, says);
         }
@@ -80,25 +79,16 @@ impl Ground {
             // Mercator stretches by 1/cos of the latitude.
             let lat = 2.0 * ((low.y + high.y) / 2.0 / 6_378_137.0).exp().atan()
                 - std::f64::consts::FRAC_PI_2;
-            return plane(
-                100.0 * lat.cos(),
-                ("метры проекции Меркатора", "metres of Mercator’s projection"),
-            );
+            return plane(100.0 * lat.cos(), word!("metres-of-mercator-s-projection"));
         }
         sizes.sort_by(f64::total_cmp);
         let room = sizes.get(sizes.len() / 2).copied().unwrap_or(5.0);
         if is_mercator || room < 100.0 {
-            plane(100.0, ("метры", "metres"))
+            plane(100.0, word!("metres"))
         } else if room < 2000.0 {
-            plane(
-                1.0,
-                ("сантиметры (по размеру помещений)", "centimetres (by the size of the rooms)"),
-            )
+            plane(1.0, word!("centimetres-by-the-size-of"))
         } else {
-            plane(
-                0.1,
-                ("миллиметры (по размеру помещений)", "millimetres (by the size of the rooms)"),
-            )
+            plane(0.1, word!("millimetres-by-the-size-of"))
         }
     }
 
@@ -124,15 +114,12 @@ impl Ground {
     }
 }
 
-/// The same words in Russian and in English.
-type Both = (&'static str, &'static str);
-
-fn unit(word: &str) -> Option<(f64, Both)> {
+fn unit(word: &str) -> Option<(f64, Piece)> {
     match word.trim().to_lowercase().as_str() {
-        "m" | "metre" | "metres" | "meter" | "meters" => Some((100.0, ("метры", "metres"))),
-        "cm" => Some((1.0, ("сантиметры", "centimetres"))),
-        "mm" => Some((0.1, ("миллиметры", "millimetres"))),
-        "ft" | "feet" => Some((30.48, ("футы", "feet"))),
+        "m" | "metre" | "metres" | "meter" | "meters" => Some((100.0, word!("metres"))),
+        "cm" => Some((1.0, word!("centimetres"))),
+        "mm" => Some((0.1, word!("millimetres"))),
+        "ft" | "feet" => Some((30.48, word!("feet"))),
         _ => None,
     }
 }

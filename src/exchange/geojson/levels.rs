@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::Level;
-use crate::units::{Bilingual, Cm, InOrder as _, Lengths, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, said};
 
 use super::classify::Class;
 use super::feature::{Feature, leading_number};
@@ -133,13 +133,7 @@ impl Levels {
     /// What was assumed of the elevations.
     pub(super) fn assumed(&self) -> Option<Bilingual> {
         let bare = self.list.len() > 1 && self.list.iter().any(|s| s.elevation.is_none());
-        let [ru, en] = Lengths::said().both(STOREY, 0);
-        bare.then(|| {
-            bilingual!(
-                "высоты этажей не указаны, принято по {ru} на этаж",
-                "heights of storeys are not given, {en} a storey are taken"
-            )
-        })
+        bare.then(|| said!("storeys-without-heights", storey = STOREY))
     }
 }
 

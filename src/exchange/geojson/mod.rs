@@ -27,11 +27,14 @@ mod lifts;
 mod names;
 mod things;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use crate::map::Properties;
-use crate::units::{Bilingual, Cm, Gather as _, InOrder as _, Language, Point, Source, bilingual};
+use crate::units::{
+    Bilingual, Cm, Gather as _, InOrder as _, Language, Piece, Point, Source, said, word,
+};
 
 use super::{ReadError, Remark, Room, Spot, Survey, input, outline};
 use classify::{Class, class};
@@ -105,13 +108,7 @@ pub fn read_folder(dir: &Path) -> Result<Survey, ReadError> {
         let (own, features) = match feature::features(&source, &mut remarks) {
             // One file of the archive may be empty of features; the others make the building.
             Err(ReadError::NoBuilding { what, .. }) => {
-                remarks.push(Remark {
-                    source: stem,
-                    text: Bilingual::new(
-                        format!("файл пропущен: {what}"),
-                        format!("the file is left out: {}", what.say(Language::English)),
-                    ),
-                });
+                remarks.push(Remark { source: stem, text: said!("file-left-out", what) });
                 continue;
             }
             read => read?,
@@ -143,11 +140,7 @@ fn survey(
         features.iter().zip(&classes).filter(|(_, c)| matches!(c, Class::Room(_))).map(|(f, _)| f)
     };
     if rooms().count() > MOST_ROOMS {
-        return Err(ReadError::TooMany {
-            format: FORMAT,
-            what: ("помещений", "rooms").into(),
-            limit: MOST_ROOMS,
-        });
+        return Err(ReadError::TooMany { format: FORMAT, what: said!("rooms"), limit: MOST_ROOMS });
     }
     let positions = || features.iter().filter_map(|f| f.shape.as_ref()).flat_map(Shape::positions);
     let (ground, says) =
@@ -230,7 +223,7 @@ struct Reader {
     /// Where the room of a feature went: `(level, room)`.
     room_places: HashMap<String, Vec<(usize, usize)>>,
     /// What was left out without a word for each.
-    left_out: BTreeMap<(&'static str, &'static str), usize>,
+    left_out: BTreeMap<Cow<'static, str>, (Piece, usize)>,
 }
 
 impl Reader {
@@ -254,20 +247,10 @@ impl Reader {
                     parts.push((outer, holes.collect()));
                 }
                 Some(outer) => {
-                    let text = bilingual!(
-                        "контур из {} углов пропущен",
-                        "an outline of {} corners is left out",
-                        outer.len()
-                    );
+                    let text = said!("an-outline-of-corners-is", outer = outer.len());
                     self.remark(&feature.id, text);
                 }
-                None => self.remark(
-                    &feature.id,
-                    (
-                        "контур не замкнут или вырожден, пропущен",
-                        "the outline is not closed or has no area, it is left out",
-                    ),
-                ),
+                None => self.remark(&feature.id, word!("the-outline-is-not-closed")),
             }
         }
         parts
@@ -276,10 +259,7 @@ impl Reader {
     fn room(&mut self, feature: &Feature, word: &str) {
         let parts = self.rings(feature);
         if parts.is_empty() && !matches!(feature.shape, Some(Shape::Polygons(_))) {
-            return self.remark(
-                &feature.id,
-                ("у помещения нет контура, пропущено", "the room has no outline, it is left out"),
-            );
+            return self.remark(&feature.id, word!("the-room-has-no-outline"));
         }
         let name = self.tongue.name(feature).unwrap_or_default();
         let height = feature.number(&["height", "room_height", "ceiling_height", "высота"]);
@@ -325,10 +305,7 @@ impl Reader {
             let unit = feature.text("anchor_id").and_then(|a| anchors.get(&*a)?.text("unit_id"));
             let places = unit.and_then(|u| self.room_places.get(&*u)).cloned().unwrap_or_default();
             if places.is_empty() {
-                self.remark(
-                    &feature.id,
-                    bilingual!("«{name}»: помещение не найдено", "“{name}”: the room is not found"),
-                );
+                self.remark(&feature.id, said!("the-room-is-not-found", name));
             }
             for (level, room) in places {
                 let room = &mut self.survey.levels[level].rooms[room];
@@ -354,13 +331,7 @@ impl Reader {
         let Some(name) = name else { return self.count(feature, &Class::Unknown) };
         let at = self.ground.place(at);
         if Cm::new(at.x).is_err() || Cm::new(at.y).is_err() {
-            return self.remark(
-                &feature.id,
-                (
-                    "координаты точки – не числа плана, пропущена",
-                    "the point’s coordinates are no numbers of a plan, it is left out",
-                ),
-            );
+            return self.remark(&feature.id, word!("the-point-s-coordinates-are"));
         }
         let heading = feature.number(&["heading", "direction", "yaw"]);
         let heading = heading.and_then(|h| crate::units::Deg::new(h).ok());
@@ -374,41 +345,28 @@ impl Reader {
 
     fn count(&mut self, feature: &Feature, class: &Class) {
         let what = match (class, &feature.shape) {
-            (Class::Structure, _) => (
-                "стены и конструкции: стены стоят между помещениями",
-                "walls and structures: walls stand between rooms",
-            ),
-            (Class::Silent, _) => (
-                "адреса, контуры зданий, пути и чертёжные линии",
-                "addresses, outlines of buildings, ways and lines of the drawing",
-            ),
+            (Class::Structure, _) => word!("walls-and-structures-walls-stand"),
+            (Class::Silent, _) => word!("addresses-outlines-of-buildings-ways"),
             (_, Some(Shape::Lines(_))) => {
-                ("линии без признака двери", "lines that nothing marks as doors")
+                word!("lines-that-nothing-marks-as")
             }
-            (_, Some(Shape::Points(_))) => ("точки без имени", "points without a name"),
-            _ => ("записи неизвестного вида", "records of an unknown kind"),
+            (_, Some(Shape::Points(_))) => word!("points-without-a-name"),
+            _ => word!("records-of-an-unknown-kind"),
         };
-        *self.left_out.entry(what).or_default() += 1;
+        self.left_out.entry(what.say(Language::Russian)).or_insert((what, 0)).1 += 1;
     }
 
     fn finish(mut self) -> Result<Survey, ReadError> {
         self.things_of_parts();
         self.survey.kinds = self.things.kinds;
-        for (what, count) in std::mem::take(&mut self.left_out) {
-            let (russian, english) = what;
-            let text = Bilingual::new(
-                format!("не взято, {russian}: {count}"),
-                format!("left out, {english}: {count}"),
-            );
+        for (what, count) in std::mem::take(&mut self.left_out).into_values() {
+            let text = said!("left-out-counted", what, count);
             self.survey.remarks.push(Remark { source: String::new(), text });
         }
         if self.survey.levels.iter().all(|l| l.rooms.is_empty()) {
             let what = match self.survey.remarks.iter().find(|r| !r.source.is_empty()) {
-                Some(r) => Bilingual::new(
-                    format!("нет ни одного помещения; {}: {}", r.source, r.text),
-                    format!("there is no room; {}: {}", r.source, r.text.say(Language::English)),
-                ),
-                None => ("нет ни одного помещения", "there is no room").into(),
+                Some(r) => said!("no-room-since", source = r.source, why = r.text),
+                None => said!("there-is-no-room"),
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::units::{Bilingual, Cm, InOrder as _, Language, Lengths, Point, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Lengths, Point, said, word};
 use crate::{Count, Level, ReadError, Remark, Survey, Told, Treatment, What, outline, shafts};
 
 use super::classes::{self, Becomes};
@@ -48,11 +48,7 @@ pub(super) fn survey(
     mut remarks: Vec<Remark>,
 ) -> Result<Survey, ReadError> {
     let unit = length_unit(all).unwrap_or_else(|| {
-        let text = (
-            "единица длины не указана, принят метр",
-            "the unit of length is not given, the metre is taken",
-        )
-            .into();
+        let text = word!("the-unit-of-length-is").into();
         remarks.push(Remark { source: String::new(), text });
         100.0
     });
@@ -218,11 +214,7 @@ impl<'a> Reader<'a> {
                 shift = origin.map(f64::floor);
                 let lengths = Lengths::said();
                 let by = [shift.x, shift.y, shift.z].map(|by| lengths.short(by, 0)).join(", ");
-                let [ru, en] = [Language::Russian, Language::English].map(|l| lengths.word(l));
-                let text = bilingual!(
-                    "план сдвинут к началу координат: {by} {ru}",
-                    "the plan is moved to the origin: {by} {en}"
-                );
+                let text = said!("plan-moved", by);
                 // What stands in the map is the same whoever reads it in.
                 let [x, y, z] = [shift.x, shift.y, shift.z];
                 self.survey.frame = format!("план сдвинут к началу координат: {x}, {y}, {z} см");
@@ -261,13 +253,7 @@ impl<'a> Reader<'a> {
             whole = whole.and_then(|id| self.parents.get(&id).copied());
         }
         if self.survey.levels.is_empty() {
-            self.remark(
-                "",
-                (
-                    "этажей (IfcBuildingStorey) нет, принят один",
-                    "there are no storeys (IfcBuildingStorey), one is taken",
-                ),
-            );
+            self.remark("", word!("there-are-no-storeys-ifcbuildingstorey"));
             let name = "Этаж 1".to_owned();
             self.survey.levels.push(Level { source: "0".to_owned(), name, ..Level::default() });
         }
@@ -313,40 +299,20 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self) -> Result<Survey, ReadError> {
         if self.shapes.is_exhausted() {
-            self.remark(
-                "",
-                (
-                    "тел слишком много, часть пропущена",
-                    "there are too many bodies, some are left out",
-                ),
-            );
+            self.remark("", word!("there-are-too-many-bodies"));
         }
         if self.looks > MOST_LOOKS {
-            self.remark(
-                "",
-                (
-                    "проёмов и помещений слишком много: не у всех найдены стороны",
-                    "there are too many openings and rooms: the sides of some are not found",
-                ),
-            );
+            self.remark("", word!("there-are-too-many-openings"));
         }
         if self.shapes.effort.hulls > 0 {
-            let text = bilingual!(
-                "слишком подробные контуры взяты выпуклыми: {}",
-                "outlines with too much detail are taken convex: {}",
-                self.shapes.effort.hulls
-            );
+            let text = said!("outlines-with-too-much-detail", hulls = self.shapes.effort.hulls);
             self.remark("", text);
         }
         if self.survey.levels.iter().all(|l| l.rooms.is_empty()) {
             let what = if self.all.all("IFCSPACE").next().is_none() {
-                ("в модели нет помещений (IfcSpace)", "the model has no rooms (IfcSpace)").into()
+                said!("the-model-has-no-rooms")
             } else {
-                (
-                    "ни у одного помещения (IfcSpace) нет контура",
-                    "no room (IfcSpace) has an outline",
-                )
-                    .into()
+                word!("no-room-ifcspace-has-an").into()
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }
@@ -362,11 +328,7 @@ impl<'a> Reader<'a> {
             let Becomes::Nothing(why) = becomes else { continue };
             let count = all.count(kind);
             if count > 0 {
-                let (russian, english) = why;
-                let text = Bilingual::new(
-                    format!("{count} шт.: {russian}"),
-                    format!("{count}: {english}"),
-                );
+                let text = said!("counted", count, why);
                 self.tell((Treatment::Noted, What::Record), (count, 0), kind, text);
             }
         }
@@ -382,13 +344,9 @@ impl<'a> Reader<'a> {
                 kept.push(level);
                 continue;
             }
-            let text = bilingual!(
-                "этаж «{}» без помещений пропущен",
-                "the storey “{}” without rooms is left out",
-                level.name
-            );
+            let text = said!("the-storey-without-rooms-is", level = level.name);
             self.lose(What::Level, &level.source, text);
-            let text = ("на этаже без помещений", "on a storey without rooms");
+            let text = word!("on-a-storey-without-rooms");
             for thing in &level.things {
                 self.lose(What::Thing, &thing.source, text);
             }

@@ -1,6 +1,7 @@
 //! What becomes of each class of element that a building model may have (IFC2x3, IFC4, IFC4.3): the leaves of
 //! IfcElement, and the other types that are read.
 
+use crate::units::{Piece, word};
 /// What an element becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Becomes {
@@ -19,33 +20,17 @@ pub(super) enum Becomes {
     /// What joins rooms without a wall.
     Virtual,
     /// Nothing: why, for the person who imports.
-    Nothing((&'static str, &'static str)),
+    Nothing(Piece),
 }
 
 use Becomes::{Door, Flight, Lift, Nothing, Opening, Pillar, Stairs, Thing, Virtual, Window};
 
-const WALLS: Becomes = Nothing((
-    "стена – это то, что между помещениями; отдельно не переносится",
-    "a wall is what is between rooms; it is not carried over by itself",
-));
-const FLOORS: Becomes = Nothing((
-    "пол и потолок карты берутся из помещений",
-    "the map’s floor and ceiling are taken from the rooms",
-));
-const FRAME: Becomes =
-    Nothing(("несущие части не переносятся", "structural parts are not carried over"));
-const PIPES: Becomes = Nothing((
-    "трубы, каналы и кабели не переносятся",
-    "pipes, ducts and cables are not carried over",
-));
-const SMALL: Becomes = Nothing((
-    "части других элементов и крепёж не переносятся",
-    "parts of other elements and fasteners are not carried over",
-));
-const GROUND: Becomes = Nothing((
-    "то, что снаружи и под землёй, не переносится",
-    "what is outside and under the ground is not carried over",
-));
+const WALLS: Becomes = Nothing(word!("a-wall-is-what-is"));
+const FLOORS: Becomes = Nothing(word!("the-map-s-floor-and"));
+const FRAME: Becomes = Nothing(word!("structural-parts-are-not-carried"));
+const PIPES: Becomes = Nothing(word!("pipes-ducts-and-cables-are"));
+const SMALL: Becomes = Nothing(word!("parts-of-other-elements-and"));
+const GROUND: Becomes = Nothing(word!("what-is-outside-and-under"));
 
 /// Classes of elements, without their `IFC`, and what becomes of them.
 pub(super) const ELEMENTS: &[(&str, Becomes)] = &[
@@ -63,13 +48,7 @@ pub(super) const ELEMENTS: &[(&str, Becomes)] = &[
     ("IFCVEHICLE", Thing),
     ("IFCSHADINGDEVICE", Thing),
     ("IFCCHIMNEY", Thing),
-    (
-        "IFCGEOGRAPHICELEMENT",
-        Nothing((
-            "то, что снаружи и под землёй, не переносится",
-            "what is outside and under the ground is not carried over",
-        )),
-    ),
+    ("IFCGEOGRAPHICELEMENT", Nothing(word!("what-is-outside-and-under"))),
     ("IFCFLOWTERMINAL", Thing),
     ("IFCAIRTERMINAL", Thing),
     ("IFCAUDIOVISUALAPPLIANCE", Thing),

@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::{Point3, Vector3};
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Properties};
-use crate::units::{Cm, Point, Vector, bilingual};
+use crate::units::{Cm, Point, Vector, said, word};
 use crate::{Opening, OpeningKind, Treatment, What};
 
 use super::body::Body;
@@ -75,10 +75,7 @@ impl Reader<'_> {
                 if is_hole {
                     others += 1;
                 } else {
-                    let text = (
-                        "место или ширина не указаны, пропущено",
-                        "place or width is not given, it is left out",
-                    );
+                    let text = word!("place-or-width-is-not");
                     self.lose(what, &source(record, id), text);
                 }
                 continue;
@@ -101,17 +98,11 @@ impl Reader<'_> {
             }
         }
         if others > 0 {
-            let text = bilingual!(
-                "{others} шт.: пустые отверстия, сквозь которые не пройти или которые не соединяют помещений",
-                "{others}: empty openings that cannot be passed or join no rooms"
-            );
+            let text = said!("empty-openings-that-cannot-be", others);
             self.tell((Treatment::Noted, What::Record), (others, 0), "IFCOPENINGELEMENT", text);
         }
         if passed > 0 {
-            let text = bilingual!(
-                "{passed} шт. сверх {MOST_OPENINGS}, пропущены",
-                "{passed} beyond {MOST_OPENINGS} are left out"
-            );
+            let text = said!("beyond-are-left-out", passed, limit = MOST_OPENINGS);
             self.tell((Treatment::Skipped, What::Record), (passed, 0), "IFCDOOR", text);
         }
     }

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::Properties;
-use crate::units::{Cm, Point, Vector, bilingual};
+use crate::units::{Cm, Point, Vector, said};
 use crate::{Opening, OpeningKind, Treatment, What, outline};
 
 use super::body::Body;
@@ -105,10 +105,7 @@ impl Reader<'_> {
             }
         }
         if placeless > 0 {
-            let text = bilingual!(
-                "{placeless} мнимых границ без поверхности и без второго помещения",
-                "{placeless} virtual boundaries without a surface and without a second room"
-            );
+            let text = said!("virtual-boundaries-without-a-surface", placeless);
             self.tell((Treatment::Noted, What::Record), (0, 0), "IFCRELSPACEBOUNDARY", text);
         }
         for ((level, one, other), stretches) in found {
@@ -118,10 +115,7 @@ impl Reader<'_> {
         }
         let elements = self.elements(Becomes::Virtual).len();
         if elements > 0 {
-            let text = bilingual!(
-                "{elements} шт.: сами они не тела; проходы берутся из границ помещений",
-                "{elements}: they are no bodies themselves; passages are taken from the boundaries of rooms"
-            );
+            let text = said!("they-are-no-bodies-themselves", elements);
             self.tell((Treatment::Noted, What::Record), (elements, 0), "IFCVIRTUALELEMENT", text);
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use crate::map::Properties;
-use crate::units::Cm;
+use crate::units::{Cm, said, word};
 use crate::{ReadError, Room, Treatment, What, outline};
 
 use super::body::{Body, together};
@@ -21,7 +21,7 @@ impl Reader<'_> {
         if spaces.len() > MOST_ROOMS {
             return Err(ReadError::TooMany {
                 format: FORMAT,
-                what: ("помещений", "rooms").into(),
+                what: said!("rooms"),
                 limit: MOST_ROOMS,
             });
         }
@@ -35,29 +35,20 @@ impl Reader<'_> {
         for (id, space) in spaces {
             let source = source(space, id);
             if wholes.contains(&id) {
-                let text = (
-                    "помещение состоит из других, взяты они",
-                    "the room consists of others, which are taken",
-                );
+                let text = word!("the-room-consists-of-others");
                 self.tell((Treatment::Noted, What::Room), (1, 1), &source, text);
                 continue;
             }
             // A whole storey's area, for sums of money.
             if space.at(9).word() == Some("GFA") {
-                let text = (
-                    "это площадь этажа (GFA), а не помещение",
-                    "this is a storey’s area (GFA), and no room",
-                );
+                let text = word!("this-is-a-storey-s");
                 self.tell((Treatment::Noted, What::Room), (1, 0), &source, text);
                 continue;
             }
             let place = self.place_of(space);
             let (bodies, from) = self.shapes.of_product(space.at(6), &place, Else::Footprint);
             if bodies.is_empty() {
-                let text = (
-                    "у помещения нет ни тела, ни контура, которые читаются",
-                    "the room has neither a body nor an outline that can be read",
-                );
+                let text = word!("the-room-has-neither-a");
                 self.lose(What::Room, &source, text);
                 continue;
             }
@@ -81,24 +72,15 @@ impl Reader<'_> {
             (ring.len() <= outline::MOST_CORNERS).then_some(ring)
         };
         let Some((floor, outline)) = largest.and_then(|f| Some((f, ring(&f.outer)?))) else {
-            let text = (
-                "контур вырожден или слишком подробен, пропущен",
-                "the outline has no area or too much detail, it is left out",
-            );
+            let text = word!("the-outline-has-no-area-or");
             return self.lose(What::Room, &source, text);
         };
         if floors.iter().any(|f| f != floor && f.area() > 0.1 * floor.area()) {
-            let text = (
-                "пол помещения из нескольких частей, взята наибольшая",
-                "the room’s floor is in several parts, the largest is taken",
-            );
+            let text = word!("the-room-s-floor-is");
             self.tell((Treatment::Mended, What::Room), (0, 0), &source, text);
         }
         if bodies.iter().any(|b| b.is_round) {
-            let text = (
-                "стены кривые: взят выпуклый контур их рёбер",
-                "the walls are curved: the convex outline of their edges is taken",
-            );
+            let text = word!("the-walls-are-curved-the");
             self.tell((Treatment::Mended, What::Room), (0, 0), &source, text);
         }
         let holes = floor.holes.iter().filter_map(|h| ring(h)).collect();

@@ -18,7 +18,7 @@ use crate::assemble::ring::{
 };
 use crate::map::Properties;
 use crate::shafts::vertical;
-use crate::units::{Cm, InOrder as _, Point, Vector, bilingual};
+use crate::units::{Cm, InOrder as _, Point, Vector, said, word};
 use crate::{Lift, Opening, OpeningKind, Room, Treatment, What, outline};
 
 use super::body::{Body, rings, together};
@@ -88,11 +88,7 @@ impl Reader<'_> {
             self.elements(Becomes::Flight).into_iter().partition(|(id, _)| self.is_of_stairs(*id));
         every.extend(alone);
         if !of_others.is_empty() {
-            let text = bilingual!(
-                "{} шт.: марши взяты вместе с их лестницами",
-                "{}: flights are taken with their stairs",
-                of_others.len()
-            );
+            let text = said!("flights-are-taken-with-their", of_others = of_others.len());
             let count = (of_others.len(), of_others.len());
             self.tell((Treatment::Noted, What::Record), count, "IFCSTAIRFLIGHT", text);
         }
@@ -100,19 +96,12 @@ impl Reader<'_> {
         for (no, (id, record)) in every.into_iter().enumerate() {
             let own = source(record, id);
             if no >= MOST {
-                self.lose(What::Lift, &own, ("лестниц слишком много", "there are too many stairs"));
+                self.lose(What::Lift, &own, word!("there-are-too-many-stairs"));
                 continue;
             }
             let own_parts = parts.get(&id).map(Vec::as_slice).unwrap_or_default();
             let Some(way) = self.way(id, record, own_parts) else {
-                self.lose(
-                    What::Lift,
-                    &own,
-                    (
-                        "нет тела, по которому видно, куда ведёт",
-                        "there is no body that shows where it leads",
-                    ),
-                );
+                self.lose(What::Lift, &own, word!("there-is-no-body-that-shows"));
                 continue;
             };
             let levels = self.reached(&way);
@@ -135,10 +124,7 @@ impl Reader<'_> {
 
     /// A few steps within one storey are in the way.
     fn within_storey(&mut self, id: u32, own: &str, parts: &[u32]) {
-        let text = (
-            "не ведёт на другой этаж: взято как препятствие",
-            "it leads to no other storey: it is taken as an obstacle",
-        );
+        let text = word!("it-leads-to-no-other");
         if parts.is_empty() {
             self.tell((Treatment::Mended, What::Lift), (0, 0), own, text);
             self.steps.push(id);
@@ -239,10 +225,7 @@ impl Reader<'_> {
         if share >= OWN_SHARE * floor.area() {
             way.kind.clone_into(&mut self.survey.levels[level].rooms[room].kind);
             let own = self.survey.levels[level].rooms[room].source.clone();
-            let text = (
-                "помещение занято лестницей: оно и есть лестница",
-                "the room is taken up by stairs: it is the stairs",
-            );
+            let text = word!("the-room-is-taken-up");
             self.tell((Treatment::Noted, What::Room), (0, 0), &own, text);
             return Some(room);
         }
@@ -331,7 +314,7 @@ impl Reader<'_> {
                 (Treatment::Mended, What::Lift),
                 (0, 0),
                 &own,
-                ("вход не найден", "its entrance is not found"),
+                word!("its-entrance-is-not-found"),
             ),
         }
         number
@@ -341,15 +324,9 @@ impl Reader<'_> {
         if stops.len() < 2 {
             let text = if way.kind == "lift" {
                 // Shafts that lie above one another are joined all the same.
-                (
-                    "по телу не видно, на каких этажах останавливается",
-                    "the body does not show on which storeys it stops",
-                )
+                word!("the-body-does-not-show")
             } else {
-                (
-                    "концы лестницы не в помещениях: этажи не связаны",
-                    "the ends of the stairs are in no rooms: the storeys are not joined",
-                )
+                word!("the-ends-of-the-stairs")
             };
             return self.lose(What::Lift, &way.source, text);
         }
@@ -359,10 +336,7 @@ impl Reader<'_> {
             let new = stops.into_iter().filter(|s| !lift.stops.contains(s)).collect::<Vec<_>>();
             lift.stops.extend(new);
             lift.stops.order();
-            let text = (
-                "вместе с другими маршами того же лестничного колодца",
-                "with other flights of the same shaft",
-            );
+            let text = word!("with-other-flights-of-the");
             return self.tell((Treatment::Noted, What::Lift), (1, 1), &way.source, text);
         }
         // Of one name, each after the first with its number.

@@ -17,7 +17,7 @@ use nom::error::{Error, ErrorKind};
 use nom::multi::many0_count;
 use nom::sequence::{delimited, preceded};
 
-use crate::units::{Bilingual, Source, bilingual};
+use crate::units::{Bilingual, Piece, Source, said, word};
 use crate::{ReadError, Remark};
 
 pub(super) const FORMAT: &str = "IFC";
@@ -119,20 +119,12 @@ pub(super) fn instances(
 ) -> Result<Instances, ReadError> {
     let text = source.text();
     let offset = |rest: &str| text.len() - rest.len();
-    let fault = |what: (&'static str, &'static str), rest: &str| {
-        ReadError::syntax(FORMAT, what, source, offset(rest))
-    };
+    let fault = |what: Piece, rest: &str| ReadError::syntax(FORMAT, what, source, offset(rest));
     if !is_step(text) {
-        return Err(fault(
-            ("текст не начинается с ISO-10303-21", "the text does not begin with ISO-10303-21"),
-            text,
-        ));
+        return Err(fault(word!("the-text-does-not-begin"), text));
     }
     let Some(mut rest) = data_section(text) else {
-        return Err(fault(
-            ("текст оборван: нет раздела DATA", "the text is cut off: there is no section DATA"),
-            &text[text.len()..],
-        ));
+        return Err(fault(word!("the-text-is-cut-off-there"), &text[text.len()..]));
     };
     let wanted: HashMap<&'static str, &'static str> = wanted.iter().map(|w| (*w, *w)).collect();
     let counted: HashMap<&'static str, &'static str> = counted.iter().map(|w| (*w, *w)).collect();
@@ -143,13 +135,7 @@ pub(super) fn instances(
         rest = space(rest).map_or(rest, |(rest, ())| rest);
         let begun = rest;
         if rest.is_empty() {
-            return Err(fault(
-                (
-                    "текст оборван: раздел DATA не закончен (ENDSEC;)",
-                    "the text is cut off: the section DATA is not ended (ENDSEC;)",
-                ),
-                rest,
-            ));
+            return Err(fault(word!("the-text-is-cut-off-the"), rest));
         }
         if let Ok((after, _)) = word(rest)
             && rest[..rest.len() - after.len()].eq_ignore_ascii_case("ENDSEC")
@@ -167,19 +153,13 @@ pub(super) fn instances(
                 if found.by_id.len() >= MOST {
                     return Err(ReadError::TooMany {
                         format: FORMAT,
-                        what: ("записей", "records").into(),
+                        what: said!("records"),
                         limit: MOST,
                     });
                 }
                 let kind = instance.kind;
                 if found.by_id.insert(id, instance).is_some() {
-                    remarks.push(remark(
-                        id,
-                        (
-                            "номер встречается дважды, взята последняя запись",
-                            "the number stands twice, the last record is taken",
-                        ),
-                    ));
+                    remarks.push(remark(id, word!("the-number-stands-twice-the")));
                 } else {
                     found.order.entry(kind).or_default().push(id);
                 }
@@ -196,18 +176,12 @@ pub(super) fn instances(
                     nom::Err::Incomplete(_) => rest,
                 };
                 let Ok((after, ())) = skip(begun) else {
-                    return Err(fault(
-                        ("текст оборван посреди записи", "the text is cut off amid a record"),
-                        begun,
-                    ));
+                    return Err(fault(word!("the-text-is-cut-off-amid"), begun));
                 };
                 faulty += 1;
                 if faulty <= MOST_REMARKS {
                     let (line, column) = source.position(offset(at));
-                    let text = bilingual!(
-                        "запись не читается (строка {line}, столбец {column}), пропущена",
-                        "the record cannot be read (line {line}, column {column}), it is left out"
-                    );
+                    let text = said!("the-record-cannot-be-read", line, column);
                     remarks.push(Remark { source: begun.chars().take(40).collect(), text });
                 }
                 rest = after;
@@ -215,10 +189,7 @@ pub(super) fn instances(
         }
     }
     if faulty > MOST_REMARKS {
-        let text = bilingual!(
-            "записей, которые не читаются: {faulty}",
-            "records that cannot be read: {faulty}"
-        );
+        let text = said!("records-that-cannot-be-read", faulty);
         remarks.push(Remark { source: String::new(), text });
     }
     Ok(found)

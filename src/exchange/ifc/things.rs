@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::assemble::ring::{Region, Ring, common};
 use crate::map::{Permeability, Properties};
-use crate::units::{Bilingual, Cm, Deg, InOrder as _, Lengths, Point, bilingual};
+use crate::units::{Bilingual, Cm, Deg, InOrder as _, Point, said, word};
 use crate::{Kind, Part, Thing, Treatment, What, outline};
 
 use super::body::{Body, area, hull, rings, together};
@@ -81,11 +81,7 @@ impl Reader<'_> {
         for (no, (id, thing, is_pillar)) in every.into_iter().enumerate() {
             let source = source(thing, id);
             if no >= MOST_THINGS {
-                self.lose(
-                    What::Thing,
-                    &source,
-                    ("вещей слишком много", "there are too many things"),
-                );
+                self.lose(What::Thing, &source, word!("there-are-too-many-things"));
                 continue;
             }
             if is_pillar && self.is_of_stairs(id) {
@@ -96,10 +92,7 @@ impl Reader<'_> {
                 .iter()
                 .any(|w| thing.at(8).word() == Some(w))
             {
-                let text = (
-                    "заготовка отверстия, а не вещь",
-                    "this provides for an opening, and is no thing",
-                );
+                let text = word!("this-provides-for-an-opening");
                 self.tell((Treatment::Noted, What::Thing), (1, 0), &source, text);
                 continue;
             }
@@ -108,10 +101,7 @@ impl Reader<'_> {
             let look = looks.entry(key).or_insert_with(|| look(&mut self.shapes, thing, &place));
             let look = look.clone();
             if look.parts.is_empty() && wholes.contains(&id) {
-                let text = (
-                    "состоит из других вещей, взяты они",
-                    "it consists of other things, which are taken",
-                );
+                let text = word!("it-consists-of-other-things");
                 self.tell((Treatment::Noted, What::Thing), (1, 1), &source, text);
                 continue;
             }
@@ -120,39 +110,20 @@ impl Reader<'_> {
                 continue;
             }
             if look.parts.is_empty() && thing.at(5).reference().is_none() {
-                self.lose(
-                    What::Thing,
-                    &source,
-                    (
-                        "не сказано ни где стоит, ни как выглядит",
-                        "it is told neither where it stands nor what it looks like",
-                    ),
-                );
+                self.lose(What::Thing, &source, word!("it-is-told-neither-where"));
                 continue;
             }
             self.thing(id, thing, &place, look, &mut kinds);
         }
         let told = [
-            (
-                within,
-                (1, 0),
-                (
-                    "стоят в стенах и вне помещений, отдельно не переносятся",
-                    "they stand in walls and outside of rooms, and are not carried over by themselves",
-                ),
-            ),
-            (
-                of_stairs,
-                (1, 1),
-                ("части лестниц, взяты лестницы", "parts of stairs, the stairs are taken"),
-            ),
+            (within, (1, 0), word!("they-stand-in-walls-and")),
+            (of_stairs, (1, 1), word!("parts-of-stairs-the-stairs")),
         ];
         for (counts, (found, taken), why) in told {
             let mut counts: Vec<_> = counts.into_iter().collect();
             counts.order();
             for (kind, n) in counts {
-                let (russian, english) = why;
-                let text = Bilingual::new(format!("{n} шт.: {russian}"), format!("{n}: {english}"));
+                let text = said!("counted", count = n, why);
                 let count = (n * found, n * taken);
                 self.tell((Treatment::Noted, What::Thing), count, kind, text);
             }
@@ -185,11 +156,7 @@ impl Reader<'_> {
         let level = self.level_of(id, bottom);
         let raised = Cm::new(bottom - self.survey.levels[level].elevation.get());
         let (false, Ok(raised)) = (is_far, raised) else {
-            return self.lose(
-                What::Thing,
-                &source_id,
-                ("стоит за пределами всякого здания", "it stands outside of any building"),
-            );
+            return self.lose(What::Thing, &source_id, word!("it-stands-outside-of-any"));
         };
         if let Some(doubt) = look.doubt {
             self.tell((Treatment::Mended, What::Thing), (0, 0), &source_id, doubt);
@@ -259,25 +226,13 @@ fn frame(place: &Place) -> crate::units::Frame {
 fn look(shapes: &mut Shapes<'_>, thing: &Instance, place: &Place) -> Look {
     let (bodies, from) = shapes.of_product(thing.at(6), &place.unturned(), Else::Box);
     let mut doubt = match from {
-        Source::Body if bodies.is_empty() => Some(bilingual!(
-            "тела, которое читается, нет: взят обычный для слова размер или метка",
-            "there is no body that can be read: the size usual for the word is taken, or a mark",
-        )),
-        Source::Body if bodies.iter().any(|b| b.is_round) => Some(bilingual!(
-            "тело с кривыми гранями: взят выпуклый контур",
-            "a body with curved faces: its convex outline is taken",
-        )),
+        Source::Body if bodies.is_empty() => Some(said!("there-is-no-body-that")),
+        Source::Body if bodies.iter().any(|b| b.is_round) => {
+            Some(said!("a-body-with-curved-faces"))
+        }
         Source::Body => None,
-        Source::Box => {
-            Some(bilingual!("тела нет: взята его коробка", "there is no body: its box is taken"))
-        }
-        Source::Footprint => {
-            let [ru, en] = Lengths::said().both(USUAL_HEIGHT, 0);
-            Some(bilingual!(
-                "тела нет: взят контур на плане, высота принята {ru}",
-                "there is no body: its outline on the plan is taken, and a height of {en}"
-            ))
-        }
+        Source::Box => Some(said!("there-is-no-body-its")),
+        Source::Footprint => Some(said!("no-body-but-outline", height = USUAL_HEIGHT)),
     };
     let mut solids = solids(&bodies, shapes);
     if from == Source::Footprint {
@@ -298,10 +253,7 @@ fn look(shapes: &mut Shapes<'_>, thing: &Instance, place: &Place) -> Look {
         }
     }
     if parts.is_empty() && !bodies.is_empty() {
-        doubt = Some(bilingual!(
-            "тело вырождено: взят обычный для слова размер или метка",
-            "the body has no volume: the size usual for the word is taken, or a mark",
-        ));
+        doubt = Some(said!("the-body-has-no-volume"));
     }
     Look { parts, bottom, doubt }
 }

@@ -3,13 +3,13 @@
 use serde_json::Value;
 
 use crate::ReadError;
-use crate::units::{Cm, Point, Source, Vector};
+use crate::units::{Cm, Point, Source, Vector, word};
 
 use super::{FORMAT, METRE};
 
 /// The whole text as one value; nesting, nodes and aliases are limited.
 pub(super) fn parse(source: &Source) -> Result<Value, ReadError> {
-    crate::yaml::parse(source, FORMAT, ("здания", "of a building"))
+    crate::yaml::parse(source, FORMAT, word!("of-a-building"))
 }
 
 pub(super) fn text<'v>(value: &'v Value, field: &str) -> Option<&'v str> {

@@ -18,7 +18,7 @@ use std::collections::HashMap;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Permeability, Properties};
-use crate::units::{Bilingual, Cm, Deg, Language, Lengths, Point, Source, Vector, bilingual};
+use crate::units::{Bilingual, Cm, Deg, Point, Source, Vector, said, word};
 
 use super::{
     Kind, Lane, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey,
@@ -57,10 +57,7 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let word = text(&building, "coordinate_system");
     let Some(system) = System::named(word) else {
         let word = word.unwrap_or_default();
-        let what = bilingual!(
-            "система координат {word} не читается: нужна reference_image, cartesian_meters, wgs84 или web_mercator",
-            "the coordinate system {word} is not read: reference_image, cartesian_meters, wgs84 or web_mercator is needed"
-        );
+        let what = said!("the-coordinate-system-is-not", word);
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     };
     let mut reader = Reader::default();
@@ -87,9 +84,7 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
         reader.lift(name, lift, &names);
     }
     if reader.survey.levels.iter().all(|level| level.rooms.is_empty()) {
-        let what =
-            ("стены и полы не образуют ни одного помещения", "walls and floors make no room")
-                .into();
+        let what = word!("walls-and-floors-make-no").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     text(&building, "name").unwrap_or_default().clone_into(&mut reader.survey.name);
@@ -114,14 +109,7 @@ impl Reader {
         let mut fits = Vec::with_capacity(levels.len());
         for (name, level) in levels {
             let scale = document::scale(level).unwrap_or_else(|| {
-                let [ru, en] = Lengths::said().both(PIXEL * METRE, 0);
-                self.remark(
-                    name,
-                    bilingual!(
-                        "на этаже нет измерений: принято {ru} на точку рисунка",
-                        "the storey has no measurements: {en} a point of the drawing are taken"
-                    ),
-                );
+                self.remark(name, said!("storey-unmeasured", pixel = PIXEL * METRE));
                 PIXEL
             });
             fits.push(Fit::pixels(scale));
@@ -137,13 +125,7 @@ impl Reader {
             }
             match document::lay(&document::fiducials(level, &fits[i]), &base_marks) {
                 Some(motion) => fits[i] = fits[i].then(motion),
-                None => self.remark(
-                    name,
-                    (
-                        "нет общих меток (fiducials): этаж положен как нарисован",
-                        "there are no common marks (fiducials): the storey is laid as it is drawn",
-                    ),
-                ),
+                None => self.remark(name, word!("there-are-no-common-marks")),
             }
         }
         fits
@@ -159,8 +141,7 @@ impl Reader {
         let mut all = levels.iter().flat_map(|(_, level)| list(level, "vertices"));
         let first = all.find_map(|v| place(v).filter(is_sound));
         let Some((x, y)) = first else {
-            let what =
-                ("ни одна вершина не лежит на земном шаре", "no vertex lies on the globe").into();
+            let what = said!("no-vertex-lies-on-the");
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         };
         Ok(match system {
@@ -172,7 +153,7 @@ impl Reader {
     fn level(&mut self, index: usize, name: &str, level: &Value) -> Result<(), ReadError> {
         for what in ["vertices", "walls", "doors", "models"] {
             if list(level, what).len() > MOST {
-                let what = ("записей этажа", "records of a storey").into();
+                let what = said!("records-of-a-storey");
                 return Err(ReadError::TooMany { format: FORMAT, what, limit: MOST });
             }
         }
@@ -212,11 +193,7 @@ impl Reader {
         made.rooms = rooms;
         for (source, hole) in found.left_out {
             let place = rooms::place(&hole);
-            let text = Bilingual::new(
-                format!("по рисунку здесь нет пола: {place}"),
-                format!("by the drawing there is no floor here: {}", place.say(Language::English)),
-            );
-            self.survey.notes.push(Remark { source, text });
+            self.survey.notes.push(Remark { source, text: said!("no-floor-drawn", place) });
         }
         self.gaps(name, &plan);
         let door_names: Vec<String> = doors
@@ -254,32 +231,14 @@ impl Reader {
     /// Doorways that nobody drew.
     fn gaps(&mut self, level: &str, plan: &faces::Plan) {
         let told = [
-            (
-                &plan.gaps,
-                "gap",
-                (
-                    "в стене проём без двери: помещения по обе стороны стали одним",
-                    "an opening without a door is in the wall: the rooms on both sides became one",
-                ),
-            ),
-            (
-                &plan.wide,
-                "wide",
-                (
-                    "стена прервана: пол по обе стороны стал одним помещением",
-                    "the wall is broken off: the floor on both sides became one room",
-                ),
-            ),
+            (&plan.gaps, "gap", word!("an-opening-without-a-door")),
+            (&plan.wide, "wide", word!("the-wall-is-broken-off")),
         ];
-        for (gaps, sort, (russian, english)) in told {
+        for (gaps, sort, what) in told {
             for (i, (a, b)) in gaps.iter().enumerate() {
                 let middle = nalgebra::center(a, b);
-                let ([ru, en], x, y) =
-                    (Lengths::said().both((b - a).norm(), 0), middle.x / METRE, middle.y / METRE);
-                let text = Bilingual::new(
-                    format!("{russian}; {ru} у ({x:.2}; {y:.2}) м"),
-                    format!("{english}; {en} at ({x:.2}; {y:.2}) m"),
-                );
+                let [x, y] = [middle.x, middle.y].map(|at| format!("{:.2}", at / METRE));
+                let text = said!("gap", what, wide = (b - a).norm(), x, y);
                 self.survey.notes.push(Remark { source: format!("{level}/{sort}/{i}"), text });
             }
         }
@@ -301,13 +260,7 @@ impl Reader {
             };
             match (end(0), end(1)) {
                 (Some(a), Some(b)) => drawn.push(Drawn { source, ends: (a, b), record }),
-                _ => self.remark(
-                    &source,
-                    (
-                        "пропущено: нет вершины, на которую ссылается запись",
-                        "left out: the vertex to which the record refers is missing",
-                    ),
-                ),
+                _ => self.remark(&source, word!("left-out-the-vertex-to")),
             }
         }
         drawn
@@ -322,13 +275,7 @@ impl Reader {
             "hinged" => DoorKind::Hinged,
             "sliding" | "telescope" => DoorKind::Sliding,
             _ => {
-                self.remark(
-                    &door.source,
-                    bilingual!(
-                        "неизвестный вид двери «{word}»: принята распашная",
-                        "unknown kind of door “{word}”: a hinged one is taken"
-                    ),
-                );
+                self.remark(&door.source, said!("unknown-kind-of-door-a", word));
                 DoorKind::Hinged
             }
         };
@@ -393,10 +340,7 @@ impl Reader {
             };
             let spawned = record.get(4).and_then(|p| p.get("spawn_robot_name"));
             if let Some(robot) = spawned.and_then(|robot| robot.get(1)).and_then(Value::as_str) {
-                let text = bilingual!(
-                    "робот «{robot}» не взят: роботов площадки карта не хранит, только место, где он начинает",
-                    "the robot “{robot}” is not taken: of the site's robots the map holds only where they begin"
-                );
+                let text = said!("the-robot-is-not-taken", robot);
                 self.survey.notes.push(Remark { source: format!("{level}/vertices/{i}"), text });
             }
             if !name.is_empty() || !kind.is_empty() || spawned.is_some() {
@@ -416,7 +360,7 @@ impl Reader {
     fn model(&mut self, level: &str, i: usize, model: &Value, fit: &Fit, things: &mut Vec<Thing>) {
         let source = format!("{level}/models/{i}");
         let Some(at) = document::point(model.get("x"), model.get("y"), fit) else {
-            self.remark(&source, ("пропущено: негодное место", "left out: bad place"));
+            self.remark(&source, word!("left-out-bad-place"));
             return;
         };
         let word = text(model, "model_name").unwrap_or("model");
@@ -496,13 +440,7 @@ impl Reader {
         let (Some(at), (Some(width), Some(depth))) =
             (document::point(lift.get("x"), lift.get("y"), &fit), sizes)
         else {
-            self.remark(
-                name,
-                (
-                    "лифт пропущен: нет места или размеров кабины",
-                    "the lift is left out: it has no place, or its cabin no size",
-                ),
-            );
+            self.remark(name, word!("the-lift-is-left-out"));
             return;
         };
         let yaw = number(lift.get("yaw")).unwrap_or(0.0) + fit.turn();
@@ -516,13 +454,7 @@ impl Reader {
         let mut stops = Vec::new();
         for (level_name, doors) in entries(lift, "level_doors") {
             let Some(index) = levels.iter().position(|level| *level == level_name) else {
-                self.remark(
-                    name,
-                    bilingual!(
-                        "этажа «{level_name}», который лифт называет, нет",
-                        "the storey “{level_name}” that the lift names is missing"
-                    ),
-                );
+                self.remark(name, said!("the-storey-that-the-lift", level_name));
                 continue;
             };
             let level = &mut self.survey.levels[index];
@@ -557,10 +489,7 @@ impl Reader {
                         properties: Properties::new(),
                     }),
                     None => {
-                        let text = bilingual!(
-                            "двери «{door_name}», которую лифт называет, нет",
-                            "the door “{door_name}” that the lift names is missing"
-                        );
+                        let text = said!("the-door-that-the-lift", door_name);
                         self.survey.remarks.push(Remark { source: name.to_owned(), text });
                     }
                 }

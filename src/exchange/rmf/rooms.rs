@@ -8,7 +8,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::assemble::ring::{self, Region, Ring};
 use crate::map::Properties;
 use crate::map::plane::{bounds, contains, doubled_area, edges};
-use crate::units::{Bilingual, Cm, InOrder as _, Point, bilingual};
+use crate::units::{Bilingual, Cm, InOrder as _, Point, said};
 use crate::{Room, Spot};
 
 use super::faces::{Face, Plan};
@@ -106,12 +106,11 @@ pub(super) fn rooms(
 pub(super) fn place(region: &Region) -> Bilingual {
     let (low, high) = bounds(region.outer.iter().copied());
     let middle = nalgebra::center(&low, &high) / METRE;
-    bilingual!(
-        "{:.1} м² у ({:.2}; {:.2}) м",
-        "{:.1} m² at ({:.2}; {:.2}) m",
-        region.area() / 1e4,
-        middle.x,
-        middle.y
+    said!(
+        "area-at",
+        area = format!("{:.1}", region.area() / 1e4),
+        x = format!("{:.2}", middle.x),
+        y = format!("{:.2}", middle.y)
     )
 }
 

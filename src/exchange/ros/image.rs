@@ -1,7 +1,7 @@
 //! The picture of a grid: PGM, plain (P2) and binary (P5), or PNG. Rows run downwards.
 
 use crate::ReadError;
-use crate::units::{Bilingual, bilingual};
+use crate::units::{Bilingual, said, word};
 
 use super::{FORMAT, MOST_CELLS};
 
@@ -20,10 +20,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
     match bytes {
         [b'P', b'2' | b'5', ..] => pgm(bytes),
         [0x89, b'P', b'N', b'G', ..] => png(bytes),
-        _ => Err(fault(
-            0,
-            ("картинка не PGM (P2, P5) и не PNG", "the picture is neither PGM (P2, P5) nor PNG"),
-        )),
+        _ => Err(fault(0, word!("the-picture-is-neither-pgm"))),
     }
 }
 
@@ -33,13 +30,9 @@ fn fault(at: usize, what: impl Into<Bilingual>) -> ReadError {
 
 fn cells(width: usize, height: usize) -> Result<usize, ReadError> {
     match width.checked_mul(height) {
-        Some(0) => Err(fault(0, ("картинка пуста", "the picture is empty"))),
+        Some(0) => Err(fault(0, word!("the-picture-is-empty"))),
         Some(cells) if cells <= MOST_CELLS => Ok(cells),
-        _ => Err(ReadError::TooMany {
-            format: FORMAT,
-            what: ("клеток", "cells").into(),
-            limit: MOST_CELLS,
-        }),
+        _ => Err(ReadError::TooMany { format: FORMAT, what: said!("cells"), limit: MOST_CELLS }),
     }
 }
 
@@ -58,12 +51,9 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
                 Some(b) if b.is_ascii_whitespace() => *at += 1,
                 Some(b) if b.is_ascii_digit() => break,
                 Some(_) => {
-                    return Err(fault(
-                        *at,
-                        ("здесь должно быть число", "a number must stand here"),
-                    ));
+                    return Err(fault(*at, word!("a-number-must-stand-here")));
                 }
-                None => return Err(fault(*at, ("файл оборван", "the file is cut off"))),
+                None => return Err(fault(*at, word!("the-file-is-cut-off-2"))),
             }
         }
         let mut n = 0_usize;
@@ -75,13 +65,7 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
     };
     let (width, height, most) = (number(&mut at)?, number(&mut at)?, number(&mut at)?);
     if !(1..=65_535).contains(&most) {
-        return Err(fault(
-            at,
-            bilingual!(
-                "наибольшее значение серого {most}, а должно быть 1..65535",
-                "the largest grey value is {most}, and must be 1..65535"
-            ),
-        ));
+        return Err(fault(at, said!("the-largest-grey-value-is", most)));
     }
     let cells = cells(width, height)?;
     let scaled = |n: usize| (n.min(most) * 255 / most) as u8;
@@ -89,13 +73,7 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
     if is_plain {
         // Each number takes two bytes at least: a raster that cannot fit is refused before memory is taken.
         if bytes.len().saturating_sub(at) < cells {
-            return Err(fault(
-                bytes.len(),
-                (
-                    "файл оборван: чисел меньше, чем клеток",
-                    "the file is cut off: there are fewer numbers than cells",
-                ),
-            ));
+            return Err(fault(bytes.len(), word!("the-file-is-cut-off-there")));
         }
         grey.reserve_exact(cells);
         for _ in 0..cells {
@@ -107,13 +85,7 @@ fn pgm(bytes: &[u8]) -> Result<Picture, ReadError> {
         let wide = if most > 255 { 2 } else { 1 };
         let Some(raster) = raster.get(..cells * wide) else {
             let have = raster.len() / wide;
-            return Err(fault(
-                bytes.len(),
-                bilingual!(
-                    "файл оборван: клеток {have} вместо {cells}",
-                    "the file is cut off: {have} cells instead of {cells}"
-                ),
-            ));
+            return Err(fault(bytes.len(), said!("the-file-is-cut-off", have, cells)));
         };
         grey = if wide == 1 {
             raster.iter().map(|b| scaled(usize::from(*b))).collect()
@@ -133,15 +105,9 @@ fn png(bytes: &[u8]) -> Result<Picture, ReadError> {
     let mut reader = decoder.read_info().map_err(wrong)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let cells = cells(width, height)?;
-    let size = reader
-        .output_buffer_size()
-        .ok_or_else(|| fault(0, ("PNG: слишком велик", "PNG: too large")))?;
+    let size = reader.output_buffer_size().ok_or_else(|| fault(0, word!("png-too-large")))?;
     if size > MOST_CELLS * 4 {
-        return Err(ReadError::TooMany {
-            format: FORMAT,
-            what: ("клеток", "cells").into(),
-            limit: MOST_CELLS,
-        });
+        return Err(ReadError::TooMany { format: FORMAT, what: said!("cells"), limit: MOST_CELLS });
     }
     let mut raw = vec![0; size];
     let info = reader.next_frame(&mut raw).map_err(wrong)?;
@@ -154,10 +120,7 @@ fn png(bytes: &[u8]) -> Result<Picture, ReadError> {
         |p: &[u8]| (p[..colours].iter().map(|c| u32::from(*c)).sum::<u32>() / colours as u32) as u8;
     let grey: Vec<u8> = pixels().map(mean).collect();
     if grey.len() < cells {
-        return Err(fault(
-            bytes.len(),
-            ("PNG: клеток меньше, чем сказано", "PNG: fewer cells than it says"),
-        ));
+        return Err(fault(bytes.len(), word!("png-too-short")));
     }
     let is_clear =
         if has_alpha { pixels().map(|p| p[channels - 1] < 255).collect() } else { Vec::new() };

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::{Level, ReadError, Remark, Survey, input};
-use crate::units::{Bilingual, Deg, Frame, Lengths, Source, bilingual};
+use crate::units::{Bilingual, Deg, Frame, Source, said, word};
 use grid::Grid;
 
 pub(super) const FORMAT: &str = "ROS map_server";
@@ -78,25 +78,14 @@ pub fn read(path: &Path) -> Result<Survey, ReadError> {
 pub fn read_parts(name: &str, sheet: &Sheet, picture: &[u8]) -> Result<Survey, ReadError> {
     let picture = image::read(picture)?;
     let grid = Grid::of(sheet, &picture);
-    let [ru, en] = Lengths::said().both(sheet.resolution, 2);
-    let mut remarks = vec![Remark {
-        source: String::new(),
-        text: bilingual!(
-            "сетка {} × {}, {ru} на клетку; помещения и проходы найдены по узким местам: проверьте их",
-            "a grid of {} × {}, {en} a cell; rooms and passages are found by narrow places: check them",
-            grid.width,
-            grid.height
-        ),
-    }];
+    let (width, height, cell) = (grid.width, grid.height, sheet.resolution);
+    let mut remarks =
+        vec![Remark { source: String::new(), text: said!("grid", width, height, cell) }];
     let mut level =
         Level { source: name.to_owned(), name: "Этаж 1".to_owned(), ..Level::default() };
     let kinds = rooms::furnish(&grid, sheet, &mut level, &mut remarks);
     if level.rooms.is_empty() {
-        let what = (
-            "на сетке нет свободного пола размером с помещение",
-            "the grid has no free floor the size of a room",
-        )
-            .into();
+        let what = word!("the-grid-has-no-free").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     Ok(Survey { name: name.to_owned(), levels: vec![level], kinds, remarks, ..Survey::default() })
@@ -107,14 +96,14 @@ pub fn read_parts(name: &str, sheet: &Sheet, picture: &[u8]) -> Result<Survey, R
 /// # Errors
 /// [`ReadError::Syntax`] when it is no YAML, [`ReadError::NoBuilding`] when a field is missing or makes no sense.
 pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
-    let root: Value = super::yaml::parse(source, FORMAT, ("карты", "of a map"))?;
+    let root: Value = super::yaml::parse(source, FORMAT, word!("of-a-map"))?;
     let wrong = |what: Bilingual| ReadError::NoBuilding { format: FORMAT, what };
     let number = |key: &str| root.get(key).and_then(as_number);
     let share = |key: &str, usual: f64| match root.get(key) {
         None => Ok(usual),
-        Some(v) => as_number(v).filter(|x| (0.0..=1.0).contains(x)).ok_or_else(|| {
-            wrong(bilingual!("«{key}» – не число от 0 до 1", "“{key}” is no number from 0 to 1"))
-        }),
+        Some(v) => as_number(v)
+            .filter(|x| (0.0..=1.0).contains(x))
+            .ok_or_else(|| wrong(said!("is-no-number-from-0", key))),
     };
     let image = root.get("image").and_then(Value::as_str).filter(|i| !i.is_empty());
     let resolution = number("resolution").map(|r| r * 100.0).filter(|r| (0.1..=1000.0).contains(r));
@@ -124,15 +113,7 @@ pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
             .as_array()
             .map(|l| l.iter().map(as_number).collect::<Option<Vec<f64>>>())
             .and_then(|l| l.filter(|l| l.len() >= 2 && l.iter().all(|x| x.abs() <= 1e4)))
-            .ok_or_else(|| {
-                wrong(
-                    (
-                        "«origin» – не [x, y, поворот] в пределах 10 км",
-                        "“origin” is no [x, y, turn] within 10 km",
-                    )
-                        .into(),
-                )
-            })?,
+            .ok_or_else(|| wrong(said!("bad-origin")))?,
     };
     let negate = match root.get("negate") {
         None => false,
@@ -140,18 +121,8 @@ pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
         Some(v) => as_number(v).is_some_and(|n| n != 0.0),
     };
     Ok(Sheet {
-        image: image
-            .ok_or_else(|| wrong(("нет поля «image»", "the field “image” is missing").into()))?
-            .to_owned(),
-        resolution: resolution.ok_or_else(|| {
-            wrong(
-                (
-                    "«resolution» – не число от 0.001 до 10 м",
-                    "“resolution” is no number from 0.001 to 10 m",
-                )
-                    .into(),
-            )
-        })?,
+        image: image.ok_or_else(|| wrong(said!("the-field-image-is-missing")))?.to_owned(),
+        resolution: resolution.ok_or_else(|| wrong(said!("bad-resolution")))?,
         origin: Frame::new(
             origin[0] * 100.0,
             origin[1] * 100.0,

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::geometry::convex_hull;
 use crate::map::{Permeability, Properties};
-use crate::units::{Cm, Deg, Gather as _, Point, Vector, bilingual};
+use crate::units::{Cm, Deg, Gather as _, Point, Vector, said};
 use crate::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
 
 use super::Sheet;
@@ -52,19 +52,13 @@ pub(super) fn furnish(
     {
         free.iter_mut().zip(fans).for_each(|(free, is_fan)| *free &= !is_fan);
         let area = count as f64 * cell_area / 1e4;
-        let text = bilingual!(
-            "пола вне стен, в лучах лазера: {area:.0} м², пропущено",
-            "floor outside of the walls, in the beams of the laser: {area:.0} m², left out"
-        );
+        let text = said!("floor-outside-of-the-walls", area = format!("{area:.0}"));
         remarks.push(Remark { source: String::new(), text });
     }
     let islands = islands(grid, &mut free, cell_area);
     let noise = drop_pieces(grid, &mut free, (SMALLEST_PIECE / cell_area) as usize);
     if noise > 0 {
-        let text = bilingual!(
-            "обрывков свободного пола меньше 1 м² пропущено: {noise}",
-            "scraps of free floor under 1 m² left out: {noise}"
-        );
+        let text = said!("scraps-of-free-floor-under", noise);
         remarks.push(Remark { source: String::new(), text });
     }
     let distances = grid.distances(&free);
@@ -75,10 +69,7 @@ pub(super) fn furnish(
     openings(grid, sheet, &label, &cuts, level);
     let (kinds, left) = things(grid, sheet, &label, &islands, level);
     if left > 0 {
-        let text = bilingual!(
-            "островков больше {MOST_THINGS}, пропущено: {left}",
-            "there are more than {MOST_THINGS} islands, left out: {left}"
-        );
+        let text = said!("there-are-more-than-islands", limit = MOST_THINGS, left);
         remarks.push(Remark { source: String::new(), text });
     }
     kinds

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::units::{Bilingual, Cm, Point, Source};
+use crate::units::{Bilingual, Cm, Point, Source, said};
 use crate::{ReadError, Remark};
 
 /// Metres to centimetres.
@@ -22,15 +22,15 @@ pub(super) fn parse(format: &'static str, text: &Source) -> Result<Value, ReadEr
 fn words(e: &serde_json::Error) -> Bilingual {
     match e.classify() {
         serde_json::error::Category::Eof => {
-            ("файл обрывается, не закончившись", "the file breaks off before its end").into()
+            said!("the-file-breaks-off-before")
         }
         _ if e.to_string().contains("recursion limit") => {
-            ("вложенность глубже 128 уровней", "nested deeper than 128 levels").into()
+            said!("nested-deeper-than-128-levels")
         }
         _ if e.to_string().contains("number out of range") => {
-            ("число больше, чем может быть", "a number larger than can be").into()
+            said!("a-number-larger-than-can")
         }
-        _ => ("это не JSON", "this is no JSON").into(),
+        _ => said!("this-is-no-json"),
     }
 }
 

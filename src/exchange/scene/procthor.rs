@@ -12,7 +12,7 @@ use std::ops::RangeInclusive;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
-use crate::units::{Cm, Deg, Gather as _, Point, Source, bilingual};
+use crate::units::{Cm, Deg, Gather as _, Point, Source, said, word};
 use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -92,11 +92,7 @@ impl Assets {
             }
         }
         if known.is_empty() {
-            let what = (
-                "в базе нет ни одного предмета с размерами",
-                "the database has no thing with sizes",
-            )
-                .into();
+            let what = word!("the-database-has-no-thing").into();
             return Err(ReadError::NoBuilding { format: "AI2-THOR asset database", what });
         }
         Ok(Self { known })
@@ -124,11 +120,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     let walls: BTreeMap<&str, Wall> = list(&house, "walls").iter().filter_map(Wall::of).gather();
     let rooms = reader.rooms(&house, &walls);
     if rooms.is_empty() {
-        let what = (
-            "нет ни одного помещения с полом (rooms[].floorPolygon)",
-            "there is no room with a floor (rooms[].floorPolygon)",
-        )
-            .into();
+        let what = word!("there-is-no-room-with-a").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     let mut openings = Vec::new();
@@ -146,12 +138,9 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     let count = list(&house, "objects").len();
     if pieces.is_empty() && count > 0 {
         let what = if assets.is_empty() {
-            (
-                "нет базы с ними (asset-database.json)",
-                "the database of them is missing (asset-database.json)",
-            )
+            word!("the-database-of-them-is")
         } else {
-            ("база говорит о других вещах", "the database is of other things")
+            word!("the-database-is-of-other")
         };
         return Err(ReadError::NoSizes { format: FORMAT, what: what.into(), count });
     }
@@ -293,13 +282,7 @@ impl Reader<'_> {
                 .map(plan)
                 .collect();
             if outline.len() < 3 {
-                self.remarks.push(remark(
-                    id,
-                    (
-                        "помещение пропущено: у пола меньше трёх углов",
-                        "the room is left out: its floor has fewer than three corners",
-                    ),
-                ));
+                self.remarks.push(remark(id, word!("the-room-is-left-out")));
                 continue;
             }
             let mut properties = surface(record.get("floorMaterial"), " ПОЛА");
@@ -332,25 +315,13 @@ impl Reader<'_> {
             list(record, "holePolygon").iter().filter_map(|p| triple(Some(p))).collect();
         let wall = ["wall0", "wall1"].iter().find_map(|w| walls.get(text(record, w)?));
         let (Some(wall), &[low, high, ..]) = (wall, hole.as_slice()) else {
-            self.remarks.push(remark(
-                id,
-                (
-                    "проём пропущен: нет его стены или отверстия в ней",
-                    "the opening is left out: its wall or the hole in it is missing",
-                ),
-            ));
+            self.remarks.push(remark(id, word!("the-opening-is-left-out-its")));
             return None;
         };
         let along = wall.to - wall.from;
         let length = along.norm();
         if length < 1.0 {
-            self.remarks.push(remark(
-                id,
-                (
-                    "проём пропущен: его стена короче сантиметра",
-                    "the opening is left out: its wall is shorter than a centimetre",
-                ),
-            ));
+            self.remarks.push(remark(id, word!("the-opening-is-left-out-its-wall")));
             return None;
         }
         let jamb = |x: f64| wall.from + along * (x / length);
@@ -443,18 +414,12 @@ impl Reader<'_> {
         let id = text(record, "id").unwrap_or_default();
         let asset_id = text(record, "assetId").unwrap_or_default();
         let Some(asset) = self.assets.known.get(asset_id) else {
-            let text = bilingual!(
-                "предмет пропущен: размеров «{asset_id}» нет в базе",
-                "the thing is left out: the database lacks the sizes of “{asset_id}”"
-            );
+            let text = said!("the-thing-is-left-out-the", asset_id);
             self.remarks.push(remark(id, text));
             return None;
         };
         let Some(at) = triple(record.get("position")) else {
-            self.remarks.push(remark(
-                id,
-                ("предмет пропущен: нет его места", "the thing is left out: it has no place"),
-            ));
+            self.remarks.push(remark(id, word!("the-thing-is-left-out-it")));
             return None;
         };
         let turn = angles(record.get("rotation"));

@@ -7,7 +7,7 @@
 use serde_json::Value;
 
 use crate::map::Properties;
-use crate::units::{Cm, Deg, Point, Source};
+use crate::units::{Cm, Deg, Point, Source, word};
 use crate::{Level, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -36,9 +36,7 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
         floor.filter_map(|o| Box3::of(o.get("axisAlignedBoundingBox")?)).collect();
     let bounds = scene.get("sceneBounds").and_then(Box3::of);
     let Some(first) = floors.first().copied().or(bounds) else {
-        let what =
-            ("нет ни пола, ни границ сцены", "there is neither a floor nor bounds of the scene")
-                .into();
+        let what = word!("there-is-neither-a-floor").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     };
     let room = floors.iter().fold(first, |b, f| b.union(f));
@@ -53,13 +51,7 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
         }
         match piece(object, id, word) {
             Some(piece) => pieces.push(piece),
-            None => remarks.push(remark(
-                id,
-                (
-                    "предмет пропущен: нет коробки, в которой он стоит",
-                    "the thing is left out: the box in which it stands is missing",
-                ),
-            )),
+            None => remarks.push(remark(id, word!("the-thing-is-left-out-the-box"))),
         }
     }
     let Shelf { kinds, things, feet } = shelve(pieces);

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
-use crate::units::{Cm, Gather as _, Point, Source, bilingual};
+use crate::units::{Cm, Gather as _, Point, Source, said, word};
 use crate::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
 
 use super::colour;
@@ -57,11 +57,7 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
         list(&graph, "nodes").iter().filter_map(|n| Node::of(n, &mut remarks)).collect();
     let rooms = rooms(&nodes, &floors(&graph, &nodes));
     if rooms.is_empty() {
-        let what = (
-            "нет ни одного помещения с размерами (category = Rooms)",
-            "there is no room with sizes (category = Rooms)",
-        )
-            .into();
+        let what = word!("there-is-no-room-with").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     let mut openings = doors(&nodes, &rooms, &mut remarks);
@@ -71,10 +67,7 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
     for node in &nodes {
         match node.category {
             "Characters" => {
-                let text = (
-                    "персонаж не взят: людей карта не хранит; с его места начинает робот",
-                    "the character is not taken: the map holds no people; the robot begins at its place",
-                );
+                let text = word!("the-character-is-not-taken");
                 notes.push(remark(&node.id, text));
                 spots.push(Spot {
                     source: node.id.clone(),
@@ -88,10 +81,7 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
             "Rooms" | "Floor" | "Floors" | "Walls" | "Ceiling" | "Doors" | "Windows" => {}
             _ => match twin(node, &pieces) {
                 Some(first) => {
-                    let text = bilingual!(
-                        "предмет пропущен: на том же месте уже стоит «{first}»",
-                        "the thing is left out: “{first}” stands in the same place already"
-                    );
+                    let text = said!("the-thing-is-left-out", first);
                     remarks.push(remark(&node.id, text));
                 }
                 None => pieces.push(node.piece()),
@@ -126,13 +116,7 @@ impl<'v> Node<'v> {
             Some([length(x)?, length(y)?, length(z)?])
         };
         let (Some(centre), Some(size)) = (triple("center"), triple("size")) else {
-            remarks.push(remark(
-                id,
-                bilingual!(
-                    "«{class}» пропущено: нет его места и размеров",
-                    "“{class}” is left out: its place and sizes are missing"
-                ),
-            ));
+            remarks.push(remark(id, said!("is-left-out-its-place", class)));
             return None;
         };
         let words = |field: &str| -> Vec<&'v str> {
@@ -310,13 +294,7 @@ fn doors(nodes: &[Node<'_>], rooms: &[Room], remarks: &mut Vec<Remark>) -> Vec<O
         let frame = of("doorjamb").find(|f| near(door, f));
         let along = frame.map_or_else(|| wall_across(door, rooms), |f| long_side(f));
         let Some(along) = along else {
-            remarks.push(remark(
-                &door.id,
-                (
-                    "дверь пропущена: не видно, в какой стене она стоит",
-                    "the door is left out: it cannot be seen in which wall it stands",
-                ),
-            ));
+            remarks.push(remark(&door.id, word!("the-door-is-left-out")));
             continue;
         };
         let open = door.either("OPEN", "CLOSED").unwrap_or(false);
@@ -343,13 +321,7 @@ fn doors(nodes: &[Node<'_>], rooms: &[Room], remarks: &mut Vec<Remark>) -> Vec<O
                 let height = frame.high[1] - frame.low[1];
                 found.push(opening(frame, along, OpeningKind::Passage, Some(height)));
             }
-            None => remarks.push(remark(
-                &frame.id,
-                (
-                    "проём пропущен: его рама квадратна в плане",
-                    "the opening is left out: its frame is square on the plan",
-                ),
-            )),
+            None => remarks.push(remark(&frame.id, word!("the-opening-is-left-out"))),
         }
     }
     found

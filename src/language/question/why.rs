@@ -7,7 +7,7 @@ use super::answer::Draft;
 use super::compared::Extreme;
 use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
-use super::query::{Claim, Noun, Passing, Query, Rel, Thing};
+use super::query::{Claim, Denial, Noun, Passing, Query, Rel, Thing};
 use super::{Answer, Doubt, Fact, Said};
 use crate::map::Entity;
 use crate::units::{AreaId, Lengths};
@@ -37,6 +37,9 @@ impl Knowledge<'_> {
                 let leaves = matches!(query, Query::Find(_)) && answer.said == Said::Found;
                 if negated && leaves {
                     return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
+                }
+                if self.is_denied_rightly(query, negated) {
+                    return Ok(self.why_plain(&answer.text, &answer.topic));
                 }
                 if negated && (is_otherwise(query, &answer) || self.is_though_denied(query))
                     || !negated && is_supposed(query, &answer)
@@ -216,6 +219,20 @@ impl Knowledge<'_> {
             }
         };
         Draft::plain(Said::Found, text)
+    }
+
+    /// Whether values that are denied of things are indeed not theirs: "Why isn't the dishwasher running?", which is off.
+    fn is_denied_rightly(&self, query: &Query, negated: bool) -> bool {
+        let Query::Holds { subject, claims, denial, .. } = query else { return false };
+        let things = self.find(subject, false).unwrap_or_default();
+        let lacks = |claim: &Claim| match claim {
+            Claim::Value(filter) => {
+                let denies = negated || filter.negated || *denial != Denial::None;
+                denies && things.iter().all(|thing| !self.has_value(*thing, filter.value))
+            }
+            _ => false,
+        };
+        !things.is_empty() && claims.iter().all(lacks)
     }
 
     /// Whether values that are denied of things are theirs: "Why isn't the door open?", where it is.

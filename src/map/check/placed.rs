@@ -245,15 +245,8 @@ fn footprint(robot: &RobotProfile) -> Result<(), Bilingual> {
     }
     let reach = corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
     if robot.radius.get() < reach - 1e-6 {
-        let radius = robot.radius.get();
-        return Err(Bilingual::new(
-            format!(
-                "radius {radius} его не покрывает, нужно не меньше {reach:.2} (или уберите radius)"
-            ),
-            format!(
-                "the radius {radius} does not cover it; at least {reach:.2} is needed (or remove radius)"
-            ),
-        ));
+        let radius = robot.radius.get().to_string();
+        return Err(said!("radius-too-small", radius, reach = format!("{reach:.2}")));
     }
     Ok(())
 }

@@ -142,7 +142,7 @@ pub fn read_file(path: &Path) -> Reading {
         Err(FileFault::TooLarge { bytes, limit }) => fail(MapError::TooLarge { bytes, limit }),
         Err(fault) => {
             let path = path.to_string_lossy().into_owned();
-            let message = Bilingual::new(fault.to_string(), fault.english());
+            let message = Bilingual::from(&fault);
             fail(MapError::Unreadable { path, message })
         }
     }

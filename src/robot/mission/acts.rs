@@ -289,11 +289,7 @@ impl Mission<'_> {
             shut.find(|zone| zone.contains(at, 0.0)).map(|zone| zone.id)
         };
         match over() {
-            Some(zone) => {
-                let name = world.zones.get(&zone).map_or("", |zone| &zone.name);
-                let text = format!("зона «{name}»");
-                NoRoute::Blocked { barriers: vec![Barrier::Zone { zone }], text }
-            }
+            Some(zone) => NoRoute::Blocked { barriers: vec![Barrier::Zone { zone }] },
             None => NoRoute::NoFloor,
         }
     }

@@ -31,10 +31,7 @@ impl FromStr for Address {
         match text.strip_prefix("tcp:") {
             Some(address) if address.contains(':') => Ok(Self::Tcp(address.to_owned())),
             Some(_) => Err(said!("tcp-host-port-is-wanted")),
-            None => {
-                let russian = "нужно cmd:КОМАНДА или tcp:УЗЕЛ:ПОРТ";
-                Err((russian, "cmd:COMMAND or tcp:HOST:PORT is wanted").into())
-            }
+            None => Err(said!("cmd-or-tcp-is-wanted")),
         }
     }
 }

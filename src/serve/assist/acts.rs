@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::engine::{Mode, change_now, json as views, rehearsal, waiting};
-use crate::units::{Deg, Frame, Language};
+use crate::units::{Deg, Frame, Language, said, told};
 
 use super::super::fault::Fault;
 use super::super::proposed::Waits;
@@ -54,11 +54,7 @@ impl Call<'_> {
         let text = order.text.trim();
         // Nothing goes on by a line: `run` alone drives, with a person's word.
         if waiting(text).is_some() {
-            return Err(refuse(
-                "assist::queue",
-                "Очередью распоряжается человек; здесь есть tasks и stop.",
-                "The queue is the operator's; there are tasks and stop.",
-            ));
+            return Err(refuse("assist::queue", said!("the-queue-is-the-operators")));
         }
         let text = text.to_owned();
         let heard = asked(move |stop| house.tasks.say(&session, &text, language, stop));
@@ -94,21 +90,15 @@ impl Call<'_> {
         let (asked, trusts) = (&self.assistant.asked, self.assistant.trusts_host);
         let word = ask(asked, trusts, by, about, question).await.map_err(|error| {
             let told = error.to_string();
-            refuse("assist::asking", &told, &told)
+            refuse("assist::asking", told)
         })?;
         match word {
             Word::Yes => Ok(None),
             Word::Ask(question) => Ok(Some(Told::Waits(question))),
-            Word::No => Err(refuse(
-                "assist::declined",
-                "Человек не согласился; ничего не сделано.",
-                "The person did not agree; nothing was done.",
-            )),
-            Word::NobodyToAsk => Err(refuse(
-                "assist::nobody_to_ask",
-                "Спросить некого: эта программа не умеет спрашивать человека (elicitation). Если она сама спрашивает его перед каждым вызовом, запустите сервер с --trust-client.",
-                "There is nobody to ask: this client cannot ask its user (elicitation). If it asks before every call by itself, start the server with --trust-client.",
-            )),
+            Word::No => Err(refuse("assist::declined", said!("the-person-did-not-agree"))),
+            Word::NobodyToAsk => {
+                Err(refuse("assist::nobody_to_ask", said!("there-is-nobody-to-ask")))
+            }
         }
     }
 
@@ -117,11 +107,7 @@ impl Call<'_> {
             (true, None, None) => None,
             (false, Some(x), Some(y)) => Some(Frame::new(x, y, seen.z, Deg::of(seen.angle))),
             _ => {
-                return Err(refuse(
-                    "assist::place",
-                    "нужны x и y, либо absent",
-                    "it takes x and y, or absent",
-                ));
+                return Err(refuse("assist::place", said!("it-takes-x-and-y")));
             }
         };
         let sure = seen.sure.unwrap_or(0.9);
@@ -149,11 +135,7 @@ impl Call<'_> {
         let change = change_now(&self.session.name, &proposed.reason);
         let tried = act::edited(&house, on, text.clone(), change.clone(), Mode::DryRun).await?;
         if tried["differences"].as_array().is_none_or(Vec::is_empty) {
-            return Err(refuse(
-                "assist::nothing",
-                "Эта правка ничего не меняет.",
-                "This edit changes nothing.",
-            ));
+            return Err(refuse("assist::nothing", said!("this-edit-changes-nothing")));
         }
         let question = edit_in_words(&tried, &proposed.reason);
         let about = format!("edit on {on}: {text}");
@@ -183,7 +165,7 @@ impl Call<'_> {
             Ok(Ok(laid)) => laid,
             Ok(Err(error)) => {
                 let told = error.to_string();
-                return Err(refuse("assist::disk", &told, &told));
+                return Err(refuse("assist::disk", told));
             }
             Err(_) => return Err(desk::Gone.into()),
         };
@@ -207,8 +189,7 @@ fn edit_in_words(tried: &Value, reason: &str) -> String {
     let field = language.pick("ru", "en");
     lines.extend(list("differences").filter_map(|difference| difference[field].as_str()));
     let left: Vec<&str> = list("left_behind").filter_map(Value::as_str).collect();
-    let left =
-        format!("{}: {}", language.pick("Остаётся на месте", "Stays behind"), left.join(", "));
+    let left = format!("{}: {}", told!(language, "stays-behind"), left.join(", "));
     if list("left_behind").next().is_some() {
         lines.push(&left);
     }
@@ -222,7 +203,7 @@ fn plan_in_words(task: &Value, language: Language) -> String {
     let plan = &task["plan"];
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let field = language.pick("ru", "en");
-    let order = language.pick("Задание", "Task");
+    let order = told!(language, "task");
     let mut lines = vec![format!("{order}: {}", text(&task["text"]))];
     lines.push(text(&plan[format!("proof_{field}")]));
     let steps = rehearsal::plans_of(plan).filter_map(|plan| plan["steps"].as_array()).flatten();
@@ -235,13 +216,12 @@ fn plan_in_words(task: &Value, language: Language) -> String {
     let assumed = assumed.filter_map(Value::as_array).flatten().map(text);
     let assumed: Vec<String> = assumed.filter(|one| seen.insert(one.clone())).collect();
     if !assumed.is_empty() {
-        let head = language.pick("Если так и есть", "Assuming");
+        let head = told!(language, "assuming");
         lines.push(format!("{head}: {}", assumed.join("; ")));
     }
-    for (what, head) in [
-        ("opens", language.pick("Откроет", "It opens")),
-        ("carries", language.pick("Возьмёт или отодвинет", "It takes or pushes")),
-    ] {
+    for (what, head) in
+        [("opens", told!(language, "it-opens")), ("carries", told!(language, "it-takes-or-pushes"))]
+    {
         let names = plan[what].as_array().into_iter().flatten();
         let names: Vec<String> = names.map(|name| text(&name[field])).collect();
         if !names.is_empty() {
@@ -249,14 +229,7 @@ fn plan_in_words(task: &Value, language: Language) -> String {
         }
     }
     if plan["more"] != 0 {
-        lines.push(
-            language
-                .pick(
-                    "Это первая часть; остальное закажите отдельно: его плана ещё нет.",
-                    "This is the first part; order the rest by itself: it has no plan yet.",
-                )
-                .to_owned(),
-        );
+        lines.push(told!(language, "first-part"));
     }
     lines.join("\n")
 }

@@ -10,6 +10,8 @@ use rmcp::model::{
 use rmcp::service::{RequestContext, RoleServer};
 use serde_json::json;
 
+use crate::units::{Language, word};
+
 use super::super::gate;
 
 /// What came of asking.
@@ -51,10 +53,13 @@ impl Asked {
 const FIELD: &str = "approve";
 
 fn form(question: &str) -> ElicitRequestParams {
+    let word = word!("do-it");
+    let [russian, english] = [Language::Russian, Language::English].map(|l| word.say(l));
+    let description = format!("{russian} · {english}");
     let schema = json!({
         "type": "object",
         "properties": {
-            FIELD: { "type": "boolean", "title": "Do it", "description": "Да, сделать · Yes, do it" },
+            FIELD: { "type": "boolean", "title": "Do it", "description": description },
         },
         "required": [FIELD],
     });

@@ -4,7 +4,7 @@
 
 use serde_json::{Map, Value};
 
-use crate::units::{Bilingual, Language};
+use crate::units::{Bilingual, Language, said, told, word};
 
 use super::super::fault::Fault;
 
@@ -21,10 +21,7 @@ pub(super) fn check(tool: &str, takes: &Value, given: &Map<String, Value>) -> Re
     let missing = required.filter(|name| !given.contains_key(*name)).map(|name| {
         Bilingual::both(|language| {
             let wanted = wanted(&known[name], language);
-            language.pick(
-                format!("нет аргумента {name} (нужно: {wanted})"),
-                format!("{name} is missing (it should be {wanted})"),
-            )
+            told!(language, "argument-missing", name, wanted)
         })
     });
     let wrong = given.iter().filter_map(|(name, value)| match known.get(name) {
@@ -40,16 +37,14 @@ pub(super) fn check(tool: &str, takes: &Value, given: &Map<String, Value>) -> Re
 pub(super) fn of_no_call(params: &Value) -> Fault {
     let mut faults = Vec::new();
     if !params["name"].is_string() {
-        let wanted = ("имя инструмента", "the name of a tool");
-        faults.push(mistaken("name", &params["name"], |language| {
-            language.pick(wanted.0, wanted.1).to_owned()
-        }));
+        let wanted = word!("the-name-of-a-tool");
+        let wanted = |language| wanted.say(language).into_owned();
+        faults.push(mistaken("name", &params["name"], wanted));
     }
     if !params["arguments"].is_object() && !params["arguments"].is_null() {
-        let wanted = ("объект JSON", "a JSON object");
-        faults.push(mistaken("arguments", &params["arguments"], |language| {
-            language.pick(wanted.0, wanted.1).to_owned()
-        }));
+        let wanted = word!("a-json-object");
+        let wanted = |language| wanted.say(language).into_owned();
+        faults.push(mistaken("arguments", &params["arguments"], wanted));
     }
     if faults.is_empty() {
         of_no_request("tools/call")
@@ -60,18 +55,14 @@ pub(super) fn of_no_call(params: &Value) -> Fault {
 
 /// Parameters that are not those of a method.
 pub(super) fn of_no_request(method: &str) -> Fault {
-    let told =
-        ("параметры не те, что у этого метода", "the parameters are not those of this method");
+    let told = word!("no-parameters-of-method");
     Fault::of_arguments(method, &[told.into()])
 }
 
 fn mistaken(name: &str, value: &Value, wanted: impl Fn(Language) -> String) -> Bilingual {
     Bilingual::both(|language| {
         let (found, wanted) = (found(value, language), wanted(language));
-        language.pick(
-            format!("{name} – это {found} (нужно: {wanted})"),
-            format!("{name} is {found} (it should be {wanted})"),
-        )
+        told!(language, "argument-wrong", name, found, wanted)
     })
 }
 
@@ -80,12 +71,10 @@ fn unknown(name: &str, known: &Value) -> Bilingual {
     let known: Vec<&str> =
         known.as_object().into_iter().flatten().map(|(name, _)| name.as_str()).collect();
     let known = known.join(", ");
-    Bilingual::both(|language| match (language, known.is_empty()) {
-        (Language::Russian, true) => format!("аргумента {name} нет, и никакой не нужен"),
-        (Language::English, true) => format!("there is no argument {name}, and none is taken"),
-        (Language::Russian, false) => format!("аргумента {name} нет, есть {known}"),
-        (Language::English, false) => format!("there is no argument {name}, there are {known}"),
-    })
+    match known.is_empty() {
+        true => said!("no-arguments", name),
+        false => said!("no-argument", name, known),
+    }
 }
 
 /// Of JSON Schema what the tools use.
@@ -118,18 +107,17 @@ fn fits(kind: &Value, value: &Value) -> bool {
 fn wanted(kind: &Value, language: Language) -> String {
     if let Some(words) = kind["enum"].as_array() {
         let words: Vec<&str> = words.iter().filter_map(Value::as_str).collect();
-        return format!("{} {}", language.pick("один из", "one of"), words.join(", "));
+        return format!("{} {}", told!(language, "one-of"), words.join(", "));
     }
     let what = match kind["type"].as_str() {
         Some("number" | "integer") => {
             let is_whole = kind["type"] == "integer";
             let mut what = match is_whole {
-                true => language.pick("целое число", "a whole number"),
-                false => language.pick("число", "a number"),
-            }
-            .to_owned();
+                true => told!(language, "a-whole-number"),
+                false => told!(language, "a-number"),
+            };
             for (limit, word) in
-                [("minimum", language.pick("от", "from")), ("maximum", language.pick("до", "to"))]
+                [("minimum", told!(language, "from")), ("maximum", told!(language, "to"))]
             {
                 if !kind[limit].is_null() {
                     what = format!("{what} {word} {}", kind[limit]);
@@ -137,30 +125,21 @@ fn wanted(kind: &Value, language: Language) -> String {
             }
             return what;
         }
-        Some("boolean") => language.pick("true или false", "true or false"),
-        Some("object") => language.pick("объект JSON", "a JSON object"),
+        Some("boolean") => told!(language, "true-or-false"),
+        Some("object") => told!(language, "a-json-object"),
         Some("array") => {
-            return match language {
-                Language::Russian => format!(
-                    "список, где не больше {} и каждый – {}",
-                    kind["maxItems"],
-                    wanted(&kind["items"], language)
-                ),
-                Language::English => format!(
-                    "a list of at most {}, each of them {}",
-                    kind["maxItems"],
-                    wanted(&kind["items"], language)
-                ),
-            };
+            return told!(
+                language,
+                "list-of-at-most",
+                most = kind["maxItems"].to_string(),
+                wanted = wanted(&kind["items"], language)
+            );
         }
-        _ => language.pick("текст", "text"),
+        _ => told!(language, "text"),
     };
     match kind["maxLength"].as_u64() {
-        Some(most) => match language {
-            Language::Russian => format!("{what}, знаков не больше {most}"),
-            Language::English => format!("{what} of at most {most} characters"),
-        },
-        None => what.to_owned(),
+        Some(most) => told!(language, "of-at-most", what, most),
+        None => what,
     }
 }
 
@@ -168,19 +147,12 @@ fn found(value: &Value, language: Language) -> String {
     match value {
         Value::Null => "null".to_owned(),
         Value::Bool(_) | Value::Number(_) => value.to_string(),
-        Value::String(text) => match (language, text.chars().count()) {
-            (Language::Russian, ..=SHOWN) => format!("текст «{text}»"),
-            (Language::English, ..=SHOWN) => format!("the text \"{text}\""),
-            (Language::Russian, count) => format!("текст «{}…», знаков {count}", shown(text)),
-            (Language::English, count) => {
-                format!("the text \"{}…\" of {count} characters", shown(text))
-            }
+        Value::String(text) => match text.chars().count() {
+            ..=SHOWN => told!(language, "the-text", text),
+            count => told!(language, "the-long-text", text = shown(text), count),
         },
-        Value::Array(all) => match language {
-            Language::Russian => format!("список длиной {}", all.len()),
-            Language::English => format!("a list of length {}", all.len()),
-        },
-        Value::Object(_) => language.pick("объект", "an object").to_owned(),
+        Value::Array(all) => told!(language, "list-of-length", all = all.len()),
+        Value::Object(_) => told!(language, "an-object"),
     }
 }
 

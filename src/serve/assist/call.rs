@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use crate::engine::json as views;
-use crate::units::Language;
+use crate::units::{Bilingual, Language};
 
 use super::super::fault::Fault;
 use super::super::gate::Session;
@@ -58,8 +58,8 @@ impl Said {
     }
 }
 
-pub(super) fn refuse(code: &str, russian: &str, english: &str) -> Fault {
-    Fault::new(StatusCode::UNPROCESSABLE_ENTITY, code, russian, english)
+pub(super) fn refuse(code: &str, said: impl Into<Bilingual>) -> Fault {
+    Fault::new(StatusCode::UNPROCESSABLE_ENTITY, code, said)
 }
 
 fn taken<T: DeserializeOwned>(given: Value) -> T {

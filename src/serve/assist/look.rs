@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::engine::calls;
 use crate::engine::{Drawing, Method, RequestError, json as views, rehearsal};
 use crate::robot::Moment;
-use crate::units::Language;
+use crate::units::{Language, said};
 use serde::Deserialize;
 
 use super::super::drive::Answered;
@@ -85,11 +85,7 @@ impl Call<'_> {
                 let text = said(&view["replies"]);
                 Ok(Told::Value(views::with_text(view, &text)))
             }
-            Answered::IsOrder => Err(refuse(
-                "assist::order",
-                "Это приказ, а не вопрос: вызовите plan, а затем run.",
-                "That is an order and no question: call plan, then run.",
-            )),
+            Answered::IsOrder => Err(refuse("assist::order", said!("that-is-an-order-and"))),
         }
     }
 

@@ -38,7 +38,7 @@ use serde_json::Value;
 
 use crate::engine::Engine;
 use crate::engine::calls::Ending;
-use crate::units::Stop;
+use crate::units::{Stop, said};
 
 use super::fault::Fault;
 use super::{House, ServeError, Settings, raised};
@@ -97,11 +97,7 @@ impl ServerHandler for Assistant {
             tokio::select! {
                 told = call.run(row, given) => told,
                 // What acts ends by itself, when the robot stands.
-                () = context.ct.cancelled(), if row.may_be_left() => Err(call::refuse(
-                    "assist::cancelled",
-                    "Вызов отозван.",
-                    "The call was cancelled.",
-                )),
+                () = context.ct.cancelled(), if row.may_be_left() => Err(call::refuse("assist::cancelled", said!("the-call-was-cancelled"))),
             }
         };
         let outcome = match &told {

@@ -450,10 +450,8 @@ impl Vault {
             // After a failed sync nobody knows what the disk holds. Whatever of the frame is there goes, if it
             // can; and nothing is written after it.
             let _ = journal.file.cut(journal.length);
-            self.read_only = Some(ReadOnly::because(Bilingual::new(
-                format!("журнал не записывается ({error})"),
-                format!("the journal cannot be written ({error})"),
-            )));
+            self.read_only =
+                Some(ReadOnly::because(said!("journal-unwritable", reason = error.to_string())));
             return Err(StoreError::io(doing::WRITE, &journal.path)(error));
         }
         journal.length += frame.len() as u64;
@@ -467,7 +465,7 @@ impl Vault {
         }
         if let Err(error) = self.checkpoint() {
             // Nothing is lost: the old journal goes on. Tried again when it has grown once more.
-            tracing::warn!(%error, "снимок хранилища не удался");
+            tracing::warn!(%error, "a snapshot of the store failed");
             self.checkpoint_at = self.journal_bytes * 2;
         }
     }

@@ -198,9 +198,9 @@ pub(super) fn journal_fault(
     Ok(if let Some(fault) = &log.fault {
         Some(Bilingual::of(fault))
     } else if lsn > log.last().max(newest) {
-        Some("в журнале нет последних кадров".into())
+        Some(said!("journal-lacks-frames"))
     } else if !chained.any(|first| log.reaches(first, lsn)) {
-        Some("нет снимка, от которого ведёт журнал".into())
+        Some(said!("no-snapshot-to-go-on-from"))
     } else {
         None
     })

@@ -31,14 +31,14 @@ struct Read {
 
 /// A line for each thing that is amiss.
 #[must_use]
-pub fn amiss_in(messages: &Messages, kinds: &[&[Kind]], sources: &str) -> String {
+pub fn amiss_in(messages: &Messages, kinds: &[&[Kind]], is_whole: bool, sources: &str) -> String {
     let mut amiss = Vec::new();
     let [ru, en] = [0, 1].map(|i| {
         let language = ["ru", "en"][i];
         let mut faults = Vec::new();
         let read = Read {
-            own: named(&messages.texts[i], &mut faults),
-            alike: named(&COMMON[i], &mut Vec::new()),
+            own: named(messages.texts.iter().map(|text| *text[i]), &mut faults),
+            alike: named([*COMMON[i]], &mut Vec::new()),
         };
         amiss.extend(faults.into_iter().map(|fault| format!("{language}: {fault}")));
         read
@@ -84,7 +84,7 @@ pub fn amiss_in(messages: &Messages, kinds: &[&[Kind]], sources: &str) -> String
         asked.extend(names.messages.iter().cloned());
     }
     // What all crates have, each takes as it needs it.
-    if !std::ptr::eq(messages, &crate::MESSAGES) {
+    if is_whole && !std::ptr::eq(messages, &crate::MESSAGES) {
         let unused = ru.own.keys().filter(|name| !asked.contains(*name));
         amiss.extend(unused.map(|name| format!("{name} is told nowhere")));
     }
@@ -106,13 +106,20 @@ impl Read {
     }
 }
 
-/// What a file has.
-fn named(text: &str, amiss: &mut Vec<String>) -> Named {
+/// What some files have.
+fn named<'t>(texts: impl IntoIterator<Item = &'t str>, amiss: &mut Vec<String>) -> Named {
+    let mut named = Named::new();
+    for text in texts {
+        add(&mut named, text, amiss);
+    }
+    named
+}
+
+fn add(named: &mut Named, text: &str, amiss: &mut Vec<String>) {
     let read = FluentResource::try_new(text.to_owned()).unwrap_or_else(|(read, faults)| {
         amiss.extend(faults.iter().map(ToString::to_string));
         read
     });
-    let mut named = Named::new();
     let mut add = |name: String, pattern: &Pattern<&str>, amiss: &mut Vec<String>| {
         let mut names = Names::default();
         names.of_pattern(pattern, amiss);
@@ -135,7 +142,6 @@ fn named(text: &str, amiss: &mut Vec<String>) -> Named {
             other => amiss.push(format!("{other:?}")),
         }
     }
-    named
 }
 
 impl Names {

@@ -14,7 +14,7 @@ use serde_json::Value;
 
 use crate::map::{Permeability, Properties};
 use crate::outline::contains;
-use crate::units::{Bilingual, Cm, Frame, Point, Source, bilingual};
+use crate::units::{Bilingual, Cm, Frame, Point, Source, said, word};
 use crate::{
     Kind, Level, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey, Thing,
 };
@@ -54,11 +54,7 @@ pub fn read_pyrobosim(
         reader.room(n, room);
     }
     if reader.level.rooms.is_empty() {
-        let what = (
-            "нет ни одного помещения с контуром (rooms[].footprint)",
-            "there is no room with an outline (rooms[].footprint)",
-        )
-            .into();
+        let what = word!("there-is-no-room-with-an").into();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
     for hallway in list(&world, "hallways") {
@@ -81,7 +77,7 @@ pub fn read_pyrobosim(
 }
 
 fn yaml(source: &Source) -> Result<Value, ReadError> {
-    crate::yaml::parse(source, FORMAT, ("мира", "of a world"))
+    crate::yaml::parse(source, FORMAT, word!("of-a-world"))
 }
 
 /// What a location or an object of one category looks like.
@@ -143,13 +139,7 @@ impl Reader {
                             let value = yaml(&file)?;
                             self.looks(&value, &mut looks);
                         }
-                        None => self.note(
-                            path,
-                            (
-                                "файл с видами предметов не найден рядом с миром",
-                                "the file with the kinds of things is not found beside the world",
-                            ),
-                        ),
+                        None => self.note(path, word!("the-file-with-the-kinds")),
                     }
                 }
                 _ => {}
@@ -172,13 +162,7 @@ impl Reader {
                     looks.insert(category.clone(), look);
                 }
                 None => {
-                    self.note(
-                        category,
-                        (
-                            "контур задан сеткой или неполон: взят обычный размер",
-                            "the outline is a mesh or incomplete: the usual size is taken",
-                        ),
-                    );
+                    self.note(category, word!("the-outline-is-a-mesh"));
                     let (x, y) = (MESH / 2.0, MESH / 2.0);
                     let look = Look {
                         outline: rectangle(-x, -y, x, y),
@@ -196,10 +180,7 @@ impl Reader {
         let name = text(record, "name").map_or_else(|| format!("room{n}"), str::to_owned);
         let outline = record.get("footprint").and_then(footprint_outline);
         let Some(outline) = outline.filter(|o| plane::area(o) > 1.0) else {
-            self.note(
-                &name,
-                ("помещение пропущено: нет его контура", "the room is left out: it has no outline"),
-            );
+            self.note(&name, word!("the-room-is-left-out-it"));
             return;
         };
         let frame = record.get("pose").and_then(pose).unwrap_or_default();
@@ -242,13 +223,7 @@ impl Reader {
         let rooms = ends.map(|e| self.level.rooms.iter().position(|r| r.source == e));
         let width = record.get("width").and_then(length).filter(|w| *w > 0.0);
         let ([Some(from), Some(to)], Some(width)) = (rooms, width) else {
-            self.note(
-                &name,
-                (
-                    "проход пропущен: нет его помещений или ширины",
-                    "the passage is left out: its rooms or its width are missing",
-                ),
-            );
+            self.note(&name, word!("the-passage-is-left-out-its-rooms"));
             return;
         };
         let outlines = [from, to].map(|r| self.level.rooms[r].outline.clone());
@@ -257,13 +232,7 @@ impl Reader {
         let backwards: Vec<Point> = way.iter().rev().copied().collect();
         let (Some(out), Some(into)) = (leave(&outlines[0], &way), leave(&outlines[1], &backwards))
         else {
-            self.note(
-                &name,
-                (
-                    "проход пропущен: он не пересекает стен своих помещений",
-                    "the passage is left out: it does not cross the walls of its rooms",
-                ),
-            );
+            self.note(&name, word!("the-passage-is-left-out-it"));
             return;
         };
         let floor = plane::difference(&band(&way, width), &outlines);
@@ -307,13 +276,7 @@ impl Reader {
         let name = text(record, "name").map_or_else(|| format!("{category}{n}"), str::to_owned);
         let parent = text(record, "parent").or_else(|| text(record, "room")).unwrap_or_default();
         let Some(look) = self.locations_known.get(category).cloned() else {
-            self.note(
-                &name,
-                bilingual!(
-                    "место пропущено: вид «{category}» не описан",
-                    "the place is left out: the kind “{category}” is not described"
-                ),
-            );
+            self.note(&name, said!("the-place-is-left-out", category));
             return;
         };
         let room = self.parents.get(parent).and_then(|p| p.room);
@@ -322,23 +285,11 @@ impl Reader {
             let room = &self.level.rooms[room?];
             Some(frame_at(centroid(&room.outline), 0.0, 0.0))
         }) else {
-            self.note(
-                &name,
-                bilingual!(
-                    "место пропущено: нет ни его положения, ни помещения «{parent}»",
-                    "the place is left out: neither its pose nor the room “{parent}” is there"
-                ),
-            );
+            self.note(&name, said!("the-place-is-left-out-neither", parent));
             return;
         };
         if record.get("pose").is_none() {
-            self.note(
-                &name,
-                (
-                    "положение не задано: поставлено посреди помещения",
-                    "its pose is not given: it is put amid the room",
-                ),
-            );
+            self.note(&name, word!("its-pose-is-not-given"));
         }
         let height = look.height.unwrap_or(LOCATION);
         let top = Frame { z: Cm::of(frame.z.get() + height), ..frame };
@@ -391,13 +342,7 @@ impl Reader {
             let name = text(record, "name").map_or_else(|| format!("{category}{n}"), str::to_owned);
             *n += 1;
             let Some(look) = self.objects_known.get(category).cloned() else {
-                self.note(
-                    &name,
-                    bilingual!(
-                        "предмет пропущен: вид «{category}» не описан",
-                        "the thing is left out: the kind “{category}” is not described"
-                    ),
-                );
+                self.note(&name, said!("the-thing-is-left-out-the-kind", category));
                 continue;
             };
             let parent_name = parent_of(record);
@@ -413,20 +358,11 @@ impl Reader {
                     let (done, all) = waiting.entry(parent_name).or_default();
                     let frame = in_row(parent, *done, *all);
                     *done += 1;
-                    self.note(
-                        &name,
-                        (
-                            "положение не задано: поставлен в ряд с другими",
-                            "its pose is not given: it is put in line with others",
-                        ),
-                    );
+                    self.note(&name, word!("its-pose-is-not-given-it"));
                     frame
                 }
                 (None, None) => {
-                    let text = bilingual!(
-                        "предмет пропущен: нет ни его положения, ни места «{parent_name}»",
-                        "the thing is left out: neither its pose nor the place “{parent_name}” is there"
-                    );
+                    let text = said!("the-thing-is-left-out-neither", parent_name);
                     self.note(&name, text);
                     continue;
                 }

@@ -162,7 +162,7 @@ impl Steps<'_> {
         let wanted: Vec<Bilingual> = kinds.iter().map(|kind| kind.noun().into()).collect();
         let either = |language| {
             let all: Vec<&str> = wanted.iter().map(|one| one.say(language)).collect();
-            all.join(language.pick(" или ", " or "))
+            all.join(&word!("or").say(language))
         };
         Some(MapError::WrongKind { found, expected: Bilingual::both(either) })
     }
