@@ -7,7 +7,7 @@ use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_language::command::Command;
 use orthoframe_language::{Case, NounPhrase, names};
-use orthoframe_map::{Entity, Mark, World};
+use orthoframe_map::{DoorKind, Entity, Mark, World};
 
 use crate::files::shared;
 use crate::talk::engine;
@@ -71,6 +71,36 @@ fn what_is_open_and_on_is_told_of_as_both() {
         }
     }
     assert!(asked > 3, "{asked}");
+}
+
+/// "Which doors are sliding?", "Is L1_hr a hinged door?": the sort of a door is an adjective, with its noun or without.
+#[test]
+fn doors_and_rooms_are_asked_for_by_their_sorts() {
+    let Some(clinic) = engine(&format!("../shared/data/{CLINIC}")) else { return };
+    let world = clinic.world().unwrap();
+    for sort in world.types.door.entries.values() {
+        let own = world.doors.values().filter(|door| door.door_type == Some(sort.id));
+        let own: Vec<_> = own.collect();
+        let Some(first) = own.iter().find(|door| !door.name_en.is_empty()) else { continue };
+        let (adjective, name) = (&sort.name_en, &first.name_en);
+        if first.kind == DoorKind::Passage {
+            continue;
+        }
+        let number = |question: &str| told(&clinic, question).1;
+        assert_eq!(
+            number(&format!("How many {adjective} doors are there?")),
+            Some(own.len() as f64)
+        );
+        let listed = clinic.ask(&format!("Which doors are {adjective}?"), &mut Memory::default());
+        assert_eq!(listed.unwrap().unwrap().things.len(), own.len(), "{adjective}");
+        let (text, _) = told(&clinic, &format!("Is {name} a {adjective} door?"));
+        assert!(text.starts_with("Yes"), "{text}");
+        let (text, _) = told(&clinic, &format!("What kind of door is {name}?"));
+        assert!(text.contains(adjective), "{text}");
+    }
+    let toilets = clinic.ask("Which rooms are toilets?", &mut Memory::default());
+    let areas = toilets.unwrap().unwrap().things;
+    assert!(areas.len() > 1 && areas.iter().all(|thing| thing.area().is_some()), "{areas:?}");
 }
 
 #[test]

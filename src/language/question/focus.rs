@@ -182,7 +182,6 @@ impl Knowledge<'_> {
     /// Puts for each place of a query that several things are, the one of them that was just spoken of.
     pub(super) fn focus(&self, query: &mut Query) {
         self.rooms_for_points(query);
-        self.rooms_on_storeys(query);
         self.doors_of_what_shuts(query);
         self.is_among_those(query);
         if self.memory.exchanges.is_empty() && self.memory.listed.is_empty() {

@@ -241,6 +241,9 @@ impl Lexicon {
     fn add_type(&mut self, extension: Extension, entry: &TypeEntry) {
         let phrase = NounPhrase::parse(&entry.name, &hints_of_type(entry));
         self.add(extension, &phrase, &entry.name_en, true);
+        if matches!(extension, Extension::DoorType(_)) {
+            self.add_doors_of(extension, entry);
+        }
         for synonym in &entry.synonyms {
             match Language::of(synonym) {
                 Language::Russian => {
@@ -251,6 +254,31 @@ impl Lexicon {
                     let own = NounPhrase::parse(&entry.name, &hints_of_type(entry));
                     let id = self.push(extension, own, synonym);
                     self.nouns.insert_english(synonym, Meaning::Kind(id));
+                }
+            }
+        }
+    }
+
+    /// «раздвижная дверь», "sliding door": sorts of doors are called by adjectives, with the noun or without it.
+    fn add_doors_of(&mut self, extension: Extension, entry: &TypeEntry) {
+        let doors = of_kind("Concept.").filter(|(name, _)| *name == "Doors");
+        for (_, door) in doors {
+            let language = Language::of(door);
+            let name = language.pick(&entry.name, &entry.name_en);
+            let whole = format!("{} {door}", name.to_lowercase());
+            if name.is_empty() || Language::of(name) != language || name_key(name).contains(door) {
+                continue;
+            }
+            match language {
+                Language::Russian => {
+                    let phrase = NounPhrase::parse(&whole, &WordHints::default());
+                    let id = self.push(extension, phrase.clone(), &entry.name_en);
+                    self.nouns.insert(&phrase, Meaning::Kind(id));
+                }
+                Language::English => {
+                    let own = NounPhrase::parse(&entry.name, &hints_of_type(entry));
+                    let id = self.push(extension, own, &whole);
+                    self.nouns.insert_english(&whole, Meaning::Kind(id));
                 }
             }
         }

@@ -1,13 +1,10 @@
-//! "Upstairs" and «внизу»: the storey above or below the robot's own, put into the sentence by its name; and the rooms of a
-//! storey that is told beside them.
+//! "Upstairs" and «внизу»: the storey above or below the robot's own, put into the sentence by its name.
 //!
 //! Invariant: where the robot does not know its own storey, the sentence stays as it is; a storey that is not there
 //! is said to be missing ([`lacking`]), unless another one is named beside it.
 
 use std::borrow::Cow;
 
-use super::knowledge::Knowledge;
-use super::query::{Claim, Query, Rel, Restriction};
 use crate::map::{Entity, World};
 use crate::names::english_name;
 use crate::semantics::Relations;
@@ -119,47 +116,4 @@ fn beside(world: &World, relations: &Relations, here: MapId, storey: Storey) -> 
     let all = world.maps.keys().filter_map(|map| Some((relations.rise(world, here, *map)?, *map)));
     let there = all.filter(|(rise, _)| (*rise > 0.0) == is_above);
     there.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|(_, map)| map)
-}
-
-impl Knowledge<'_> {
-    /// "How many nurses are in consult room 3 on L1?": what is in a room and on a storey is in a room of that storey.
-    pub(super) fn rooms_on_storeys(&self, query: &mut Query) {
-        match query {
-            Query::Place { within, .. } => self.rooms_on_storey(within.iter_mut().collect()),
-            Query::Holds { claims, .. } | Query::Choice { claims, .. } => {
-                let places = claims.iter_mut().filter_map(|claim| match claim {
-                    Claim::Related(place) => Some(place),
-                    _ => None,
-                });
-                self.rooms_on_storey(places.collect());
-            }
-            _ => {}
-        }
-        query.each_noun(&mut |noun| self.rooms_on_storey(noun.restrictions.iter_mut().collect()));
-    }
-
-    fn rooms_on_storey(&self, mut places: Vec<&mut Restriction>) {
-        let is_storey = |place: &Restriction| match &place.anchors[..] {
-            [anchor] => {
-                let is_one = anchor.rank.is_some() || anchor.head.named.len() == 1;
-                is_one && anchor.is_storey(self.lexicon())
-            }
-            _ => false,
-        };
-        let told: Vec<Restriction> = places
-            .iter()
-            .filter(|place| !place.negated && is_storey(place))
-            .map(|place| (**place).clone())
-            .collect();
-        let [storey] = &told[..] else { return };
-        let within = |place: &&mut &mut Restriction| {
-            place.rel == Rel::In && !place.negated && !is_storey(place)
-        };
-        for anchor in places.iter_mut().filter(within).flat_map(|place| &mut place.anchors) {
-            let rooms = self.base(&anchor.head);
-            if rooms.len() > 1 && rooms.iter().all(|room| room.area().is_some()) {
-                anchor.restrictions.push(storey.clone());
-            }
-        }
-    }
 }

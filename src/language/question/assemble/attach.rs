@@ -71,31 +71,31 @@ impl Frame<'_, '_> {
         self.with_best(noun)
     }
 
-    /// "Through which door do I get into consult room 4 on L1?": a storey behind a name that several rooms bear tells which.
+    /// "Through which door do I get into consult room 4 on L1?": a storey beside a name that several rooms bear tells which.
     pub(super) fn rooms_of_storeys(&mut self) {
         let several = |noun: &Noun| {
             let named = &noun.head.named;
             named.len() > 1 && named.iter().all(|e| matches!(e, Entity::Area(_)))
         };
         for n in (0..self.spots.len()).rev() {
-            let Spot { at, rel, nouns, negated, .. } = &self.spots[n];
-            let ([storey], false, Some(before)) = (&nouns[..], *negated, at.checked_sub(1)) else {
-                continue;
-            };
+            let Spot { at, rel, nouns, negated, .. } = self.spots[n].clone();
+            let ([storey], Rel::In | Rel::On, false) = (&nouns[..], rel, negated) else { continue };
             let is_one = storey.rank.is_some() || storey.head.named.len() == 1;
-            if !is_one || !self.is_storey(storey) || !matches!(rel, Rel::In | Rel::On) {
+            if !is_one || !self.is_storey(storey) {
                 continue;
             }
-            let spots = self.spots.iter().filter(|s| s.at == before).map(|s| s.nouns.last());
-            let nouns = self.nouns.iter().filter(|s| s.at == before).map(|s| Some(&s.noun));
-            if !spots.chain(nouns).flatten().any(several) {
-                continue;
+            let told = self.spots[n].restrictions();
+            let spots = self.spots.iter_mut().flat_map(|s| {
+                let at = s.at;
+                s.nouns.iter_mut().map(move |noun| (at, noun))
+            });
+            let nouns = self.nouns.iter_mut().map(|s| (s.at, &mut s.noun));
+            let mut rooms =
+                spots.chain(nouns).filter(|(room, noun)| room.abs_diff(at) == 1 && several(noun));
+            if let Some((_, room)) = rooms.next() {
+                room.restrictions.extend(told);
+                self.spots.remove(n);
             }
-            let told = self.spots.remove(n).restrictions();
-            let spots = self.spots.iter_mut().filter(|s| s.at == before);
-            let nouns = self.nouns.iter_mut().filter(|s| s.at == before).map(|s| &mut s.noun);
-            let rooms = spots.filter_map(|s| s.nouns.last_mut()).chain(nouns);
-            rooms.for_each(|room| room.restrictions.extend(told.clone()));
         }
     }
 

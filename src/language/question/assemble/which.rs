@@ -315,20 +315,29 @@ impl Frame<'_, '_> {
         if let Some(asked) = asked.or(other) {
             let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != asked.at).collect();
             let rooms = self.is_rooms(&asked.noun);
+            // "Which rooms are toilets?", "Which doors are sliding?": those that are.
+            let sort = |kind: &KindId| match self.lexicon.kind(*kind).extension {
+                Extension::DoorType(_) => self.is_doors(&asked.noun),
+                Extension::AreaType(_) => rooms,
+                _ => false,
+            };
+            let has = [Mark::Have, Mark::Exists, Mark::And].iter().any(|mark| self.has(*mark));
+            if let ([only], false, None) = (&others[..], has, link)
+                && asked.at < only.at
+                && !(self.negated || only.negated)
+                && only.noun.head.kinds.iter().any(sort)
+                && (only.noun.plural || !rooms)
+            {
+                let mut those = Noun { plural: true, ..only.noun.clone() };
+                those.head.named.clear();
+                those.head.kinds.retain(sort);
+                return Some(Query::Find(self.with_rest(those, &[])));
+            }
             if rooms && !others.is_empty() && asked.at < others[0].at {
                 // «В какой комнате и кровать, и лампа?»
                 let ands = self.marks.iter().filter(|(m, _)| *m == Mark::And).count();
                 let both = others.len() > 1 && (ands > 1 || self.has(Mark::All));
                 let having = self.has(Mark::Have) || self.has(Mark::Exists) || both;
-                // "Which rooms are toilets?": those that are, and not where the things are that are called so.
-                let sort = |kind: &KindId| self.lexicon.is_area(*kind);
-                let are = others[0].noun.plural && others[0].noun.head.kinds.iter().any(sort);
-                if let ([only], true, false) = (&others[..], are, having) {
-                    let mut rooms = only.noun.clone();
-                    rooms.head.named.clear();
-                    rooms.head.kinds.retain(sort);
-                    return Some(Query::Find(self.with_rest(rooms, &[])));
-                }
                 if !having
                     && !self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
                     && !self.has(Mark::And)
