@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use orthoframe::Engine;
 use orthoframe::engine::{Dialogue, Mode, change_now};
 use orthoframe_language::command::{Command, Relation};
-use orthoframe_language::question::Thing;
+use orthoframe_language::question::{Answer, Thing};
 use orthoframe_language::{Case, Gender, NounPhrase, WordHints, english, names};
 use orthoframe_language::{Number, question::Memory};
 use orthoframe_map::{Entity, World};
@@ -340,4 +340,203 @@ fn what_lies_there_already_is_told_of() {
         done += 1;
     }
     assert!(done > 0);
+}
+
+/// A question or two, and what the last comes to.
+fn told(engine: &Engine, lines: &[&str], memory: &mut Memory) -> Option<Answer> {
+    let answers = lines.iter().map(|line| engine.ask(line, memory).expect("there is a map").ok());
+    answers.last().flatten()
+}
+
+/// «Где тарелки? А вторая на чём?», "Where is the second of them?": as of the second by its name, and «второй» is no plate.
+#[test]
+fn a_number_stands_for_a_name_and_has_its_gender() {
+    let (mut meant, mut refused) = (0, 0);
+    for engine in maps() {
+        let world = engine.world().unwrap();
+        for (russian, name) in carried(&engine).into_keys() {
+            let phrase = NounPhrase::parse(&russian, &WordHints::default());
+            let plural = phrase.form(Case::Nominative, Number::Plural);
+            let where_all =
+                [format!("Where are the {}?", english::plural(&name)), format!("Где {plural}?")];
+            let mut memory = Memory::default();
+            let Some(all) = told(&engine, &[&where_all[0]], &mut memory) else { continue };
+            let [_, Thing::Entity(second), ..] = all.things[..] else { continue };
+            let (english, russian) = (english_name(world, second), world.name(second));
+            for (said, named) in [
+                ("Where is the second of them?", format!("Where is {english}?")),
+                ("What is the second one on?", format!("What is {english} on?")),
+                ("How wide is the second of those?", format!("How wide is {english}?")),
+            ] {
+                let of_number = told(&engine, &[&where_all[0], said], &mut Memory::default());
+                let of_name = told(&engine, &[&named], &mut Memory::default());
+                let text = |answer: Option<Answer>| answer.map(|answer| answer.text);
+                let (of_number, of_name) = (text(of_number), text(of_name));
+                assert_eq!(of_number, of_name, "{} {said}", where_all[0]);
+                meant += usize::from(of_number.is_some());
+            }
+            let mut memory = Memory::default();
+            let all = told(&engine, &[&where_all[1]], &mut memory);
+            // A watch is «вторые».
+            if phrase.number() == Number::Plural
+                || all.is_none_or(|all| all.things.get(1) != Some(&Thing::Entity(second)))
+            {
+                continue;
+            }
+            let own = phrase.gender();
+            for (ordinal, object, gender) in [
+                ("второй", None, Gender::Masculine),
+                ("вторая", Some("вторую"), Gender::Feminine),
+                ("второе", Some("второе"), Gender::Neuter),
+            ] {
+                let line = format!("А {ordinal} на чём лежит?");
+                let of_number = told(&engine, &[&line], &mut memory.clone());
+                let named = format!("А {russian} на чём лежит?");
+                let of_name = told(&engine, &[&named], &mut memory.clone());
+                match (gender == own, of_number) {
+                    (true, of_number) => {
+                        let text = |answer: Option<Answer>| answer.map(|answer| answer.text);
+                        assert_eq!(text(of_number), text(of_name), "{} {line}", where_all[1]);
+                        meant += 1;
+                    }
+                    // «второй» may be said of her as well: «у второй».
+                    (false, Some(answer)) => {
+                        assert_eq!(ordinal, "второй", "{} {line} {}", where_all[1], answer.text);
+                    }
+                    (false, None) => refused += 1,
+                }
+                let Some(object) = object else { continue };
+                let taken = done_to(&engine, &format!("Возьми {object}"), &mut memory.clone());
+                let right = (gender == own).then_some(second);
+                assert_eq!(taken, right, "{} Возьми {object}", where_all[1]);
+            }
+        }
+    }
+    assert!(meant > 20 && refused > 10, "{meant} meant, {refused} refused");
+}
+
+/// "Where are the plates? How many of them are on Table 1? And where are the others?": the others of those that were told.
+#[test]
+fn the_others_are_the_rest_of_those_of_which_it_was_asked() {
+    let mut met = 0;
+    for engine in maps() {
+        let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+        for ((russian, name), things) in carried(&engine) {
+            let phrase = NounPhrase::parse(&russian, &WordHints::default());
+            let plural = phrase.form(Case::Nominative, Number::Plural);
+            let Some(on) = things.iter().find_map(|id| relations.support_of(*id)) else { continue };
+            let on = Entity::Replica(on);
+            let place = in_case(world, on, Case::Prepositional);
+            for lines in [
+                [
+                    format!("Where are the {}?", english::plural(&name)),
+                    format!("How many of them are on {}?", english_name(world, on)),
+                    "And where are the others?".to_owned(),
+                ],
+                [
+                    format!("Где {plural}?"),
+                    format!("Сколько из них на {place}?"),
+                    "А остальные где?".to_owned(),
+                ],
+            ] {
+                let mut memory = Memory::default();
+                let found = lines.each_ref().map(|line| {
+                    let answer = told(&engine, &[line], &mut memory);
+                    answer.map(|a| a.things.into_iter().collect::<BTreeSet<Thing>>())
+                });
+                let [Some(all), Some(some), rest] = found else { continue };
+                let left: BTreeSet<Thing> = all.difference(&some).copied().collect();
+                if some.is_empty() || left.is_empty() || !some.is_subset(&all) {
+                    continue;
+                }
+                assert!(rest.as_ref().is_none_or(|rest| *rest == left), "{lines:?} {rest:?}");
+                met += usize::from(rest.is_some());
+            }
+        }
+    }
+    assert!(met > 5, "{met}");
+}
+
+/// «Включи телевизор. Где лампа? Выключи обратно»: the television; after an order of another sort nothing is.
+#[test]
+fn back_is_what_the_order_before_has_done() {
+    let mut met = 0;
+    for engine in maps() {
+        let world = engine.world().unwrap();
+        let devices = world.replicas.keys().copied().filter(|id| world.has_trait(*id, "device"));
+        let devices: Vec<Entity> = devices.map(Entity::Replica).collect();
+        let carried = world.replicas.keys().copied().find(|id| world.has_trait(*id, "portable"));
+        let Some(carried) = carried.map(Entity::Replica) else { continue };
+        for (n, one) in devices.iter().enumerate() {
+            let other = devices[(n + 1) % devices.len()];
+            if other == *one {
+                continue;
+            }
+            let mut memory = Memory::default();
+            let switched = format!("Включи {}", in_case(world, *one, Case::Accusative));
+            if done_to(&engine, &switched, &mut memory) != Some(*one) {
+                continue;
+            }
+            let asked = format!("Где {}?", world.name(other));
+            told(&engine, &[&asked], &mut memory);
+            for line in ["Выключи обратно", "Ладно, выключай обратно."]
+            {
+                let back = done_to(&engine, line, &mut memory.clone());
+                assert_eq!(back, Some(*one), "{switched} {asked} {line}");
+            }
+            let taken = format!("Возьми {}", in_case(world, carried, Case::Accusative));
+            done_to(&engine, &taken, &mut memory);
+            let back = done_to(&engine, "Выключи обратно", &mut memory);
+            assert_eq!(back, None, "{switched} {taken}");
+            met += 1;
+        }
+    }
+    assert!(met > 4, "{met}");
+}
+
+/// «Где тарелки? А та, что на столе?»: the plate there, and no plate is «тот». "Where are the plates? Only those on the table."
+#[test]
+fn what_points_with_a_clause_asks_the_same_of_what_is_there() {
+    let (mut met, mut refused) = (0, 0);
+    for engine in maps() {
+        let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+        for ((russian, name), things) in carried(&engine) {
+            let phrase = NounPhrase::parse(&russian, &WordHints::default());
+            let plural = phrase.form(Case::Nominative, Number::Plural);
+            let on = |id: &ReplicaId| {
+                relations.support_of(*id).filter(|on| !relations.is_inside(*id, *on))
+            };
+            let Some(place) = things.iter().find_map(on).filter(|_| things.len() > 1) else {
+                continue;
+            };
+            let there = things.iter().filter(|id| on(id) == Some(place));
+            let there: BTreeSet<Thing> =
+                there.map(|id| Thing::Entity(Entity::Replica(*id))).collect();
+            let place = Entity::Replica(place);
+            let prepositional = in_case(world, place, Case::Prepositional);
+            let opening = format!("Где {plural}?");
+            for (that, gender) in
+                [("тот", Gender::Masculine), ("та", Gender::Feminine), ("то", Gender::Neuter)]
+            {
+                let line = format!("А {that}, что на {prepositional}?");
+                let answer = told(&engine, &[&opening, &line], &mut Memory::default());
+                let Some(answer) = answer else {
+                    refused += usize::from(gender != phrase.gender());
+                    continue;
+                };
+                let found: BTreeSet<Thing> = answer.things.into_iter().collect();
+                assert_eq!((gender, &found), (phrase.gender(), &there), "{opening} {line}");
+                met += 1;
+            }
+            let opening = format!("Where are the {}?", english::plural(&name));
+            let line = format!("Only those on {}.", english_name(world, place));
+            let answer = told(&engine, &[&opening, &line], &mut Memory::default());
+            if let Some(answer) = answer {
+                let found: BTreeSet<Thing> = answer.things.into_iter().collect();
+                assert_eq!(found, there, "{opening} {line}");
+                met += 1;
+            }
+        }
+    }
+    assert!(met > 5 && refused > 10, "{met} {refused}");
 }

@@ -4,6 +4,7 @@
 
 use super::grammar::{Item, Sentence, number_of};
 use super::mark::Mark;
+use super::numbered::genders;
 use super::query::Denial;
 use super::{Asker, Claim, Head, Memory, Noun, Query, Restriction, Thing, vocabulary};
 use crate::sets::{Set, set};
@@ -18,21 +19,27 @@ impl Asker<'_> {
         memory: &Memory,
     ) -> Option<Query> {
         let items = sentence.items();
-        let [Item::Mark(Mark::And), Item::Noun(phrase), rest @ ..] = &items[..] else {
-            return None;
-        };
-        let places = rest.iter().all(|item| matches!(item, Item::Place { .. }));
-        if !places || !sentence.points_ahead(phrase.words.start) {
+        let mut own = items.iter().skip_while(|item| matches!(item, Item::Mark(Mark::And)));
+        let Some(Item::Noun(phrase)) = own.next() else { return None };
+        let at = phrase.words.start;
+        if !own.all(|item| matches!(item, Item::Place { .. })) || !sentence.points_ahead(at) {
             return None;
         }
         let noun = self.fragment(sentence, memory)?;
+        let knowledge = self.knowledge(sentence.language, memory);
+        let genders = genders(&sentence.keys[at..=at]);
+        let fits = |thing: &Thing| {
+            genders.is_empty() || genders.iter().any(|gender| knowledge.agrees(*gender, *thing))
+        };
         let mut query = last.clone();
         let mut placed = false;
         query.first_noun(|old| {
             if !old.head.anything && self.has_kind(old) {
                 old.restrictions.clone_from(&noun.restrictions);
                 old.filters.clone_from(&noun.filters);
-                placed = !noun.restrictions.is_empty();
+                let found = knowledge.find(old, true).unwrap_or_default();
+                placed =
+                    !noun.restrictions.is_empty() && !found.is_empty() && found.iter().all(fits);
             }
         });
         placed.then_some(query)
@@ -104,8 +111,9 @@ impl Asker<'_> {
         let rest: Vec<&&str> = words.iter().filter(|w| !set!("Where").contains(w)).collect();
         let (only, many) = match rest[..] {
             [only] => (only, None),
-            // «А другие два?», "The other three?": just so many.
-            [only, many] => (only, Some(number_of(many)?)),
+            // «А другие два?», «А две другие?», "The other three?": just so many.
+            [only, many] if OTHER.contains(only) => (only, Some(number_of(many)?)),
+            [many, only] => (only, Some(number_of(many)?)),
             _ => return None,
         };
         if !OTHER.contains(only) {

@@ -51,6 +51,13 @@ impl Asker<'_> {
             let and = Language::of(text).pick("а", "and");
             return self.continued(&format!("{and} {meant}"), memory);
         }
+        // "Only those on the table": the same is asked of those.
+        let words = word_ranges(text);
+        let only = set!("OnlyWord").contains(&word_keys(text).first().map_or("", String::as_str));
+        if let (true, Some(rest)) = (only, words.get(1)) {
+            let and = Language::of(text).pick("а", "and");
+            return self.continued(&format!("{and} {}", &text[rest.start..]), memory);
+        }
         // «А на том, что в гостиной?» points.
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);

@@ -634,8 +634,13 @@ impl Asker<'_> {
         let knowledge = self.knowledge(language, memory);
         knowledge.things_there(&mut query, text);
         knowledge.focus(&mut query);
-        // "Is there one in the office as well?", where nothing tells of what.
-        let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();
+        // "Is there one in the office as well?", where nothing tells of what, or things of several kinds were told.
+        let unlike = |noun: &Noun| {
+            let things = noun.head.things.as_deref().unwrap_or_default();
+            let all = things.iter().all(|thing| thing.replica().is_some());
+            things.len() > 1 && all && knowledge.alike(things).is_none()
+        };
+        let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty() || unlike(noun);
         if let Query::Exists { what, .. } = &query
             && what.iter().all(bare)
             && word_keys(text).iter().any(|key| key == "one")

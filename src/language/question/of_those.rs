@@ -157,22 +157,28 @@ impl Asker<'_> {
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         // "Which are" is one small word, as in "the plates which are on the table".
         let mut asks = sentence.keys.first().is_some_and(|key| key == "which");
-        let mut extreme = None;
+        let (mut extreme, mut one) = (None, false);
         for item in sentence.items() {
             match item {
                 Item::Mark(Mark::More(of) | Mark::Best(of)) if extreme.is_none() => {
                     extreme = Some(of);
                 }
-                Item::Mark(Mark::Where | Mark::Which | Mark::What) => asks = true,
+                Item::Mark(Mark::Which) => (asks, one) = (true, true),
+                Item::Mark(Mark::Where | Mark::What) => asks = true,
                 Item::Mark(Mark::Be | Mark::The | Mark::And | Mark::Have | Mark::Exists) => {}
-                Item::Link(Rel::In | Rel::On) => {}
+                Item::Link(Rel::In | Rel::On) => one = false,
                 Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
                 Item::Noun(phrase)
-                    if self.is_room(&phrase.noun) && phrase.noun.head.named.is_empty() => {}
+                    if self.is_room(&phrase.noun) && phrase.noun.head.named.is_empty() =>
+                {
+                    one = false;
+                }
                 _ => return None,
             }
         }
-        let extreme = match extreme.filter(|_| asks)? {
+        // «Какое больше?» asks of one of them, and not how many there are.
+        let counts = asks && !(one && sentence.language == Language::Russian);
+        let extreme = match extreme.filter(|_| counts)? {
             Extreme::Biggest | Extreme::Most => Extreme::Most,
             Extreme::Smallest | Extreme::Fewest => Extreme::Fewest,
             _ => return None,
@@ -323,10 +329,11 @@ impl Asker<'_> {
             _ => return None,
         };
         let noun = Noun::of(vec![meant]);
+        let lists = |query: &Query| {
+            query.sought().is_some() || matches!(query, Query::Where(_) | Query::Several(_))
+        };
         Some(match &memory.query {
-            Some(query @ (Query::Property { .. } | Query::Size { .. })) if !asks_where => {
-                query.clone().of_another(&noun)
-            }
+            Some(query) if !asks_where && !lists(query) => query.clone().of_another(&noun),
             None if !asks_where => return None,
             _ => Query::Where(noun),
         })

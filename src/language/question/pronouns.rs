@@ -225,9 +225,9 @@ impl Knowledge<'_> {
         }
     }
 
-    /// Genders of the words of the last question that mean the one thing of its answer.
+    /// Genders of the words of the last question that mean a thing of its answer.
     fn genders_said(&self, thing: Thing) -> Vec<Gender> {
-        if self.memory.last != [thing] {
+        if !self.memory.last.contains(&thing) {
             return Vec::new();
         }
         let lexicon = self.lexicon();

@@ -2,7 +2,7 @@
 
 use super::grammar::Sentence;
 use super::query::Denial;
-use super::{Asker, Head, Memory, Noun, Query, Thing};
+use super::{Asker, Head, Memory, Noun, Query, Rel, Thing};
 use crate::sets::Set;
 use crate::words::word_keys;
 
@@ -57,10 +57,15 @@ impl Asker<'_> {
         Some(but(noun, &memory.last))
     }
 
-    /// "Where are the others?" of several that were told, where there are others.
+    /// "Where are the others?" of several that were told, where there are others; after "how many of them …?" of those.
     pub(super) fn rest_of_kind(&self, memory: &Memory) -> Option<Noun> {
         if memory.pending.is_some() {
             return None;
+        }
+        if memory.query.as_ref().and_then(Query::sought).is_some_and(asks_of_told)
+            && let Some(rest) = self.knowledge(memory.language, memory).rest_of_list(&memory.last)
+        {
+            return Some(Noun { plural: true, ..Noun::of(rest) });
         }
         let rest = self.left_of_kind(memory).filter(|_| memory.last.len() > 1)?;
         let left = self.knowledge(memory.language, memory).find(&rest, true).ok()?;
@@ -82,4 +87,12 @@ impl Asker<'_> {
 fn but(noun: Noun, told: &[Thing]) -> Noun {
     let told = Noun { plural: told.len() > 1, ..Noun::of(told.to_vec()) };
     Noun { plural: true, except: vec![told], ..noun }
+}
+
+/// Whether it was asked of some of several things that were told: "which of them are red?"
+fn asks_of_told(noun: &Noun) -> bool {
+    let of = noun.restrictions.iter().filter(|place| matches!(place.rel, Rel::Of | Rel::From));
+    let anchors = of.flat_map(|place| &place.anchors);
+    let told = |noun: &Noun| noun.head.things.as_ref().is_some_and(|things| things.len() > 1);
+    std::iter::once(noun).chain(anchors).any(told)
 }

@@ -163,13 +163,6 @@ impl Knowledge<'_> {
         };
         let subject = subject.filter(|found| found.len() == 1);
         let told = subject.as_ref().unwrap_or(&self.memory.last);
-        let wider = |exchange: &Exchange| {
-            let all = exchange.members();
-            let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
-            // "The second one" of a laptop and a book is none of what lay with it.
-            (holds && all.len() > told.len() && self.alike(all).is_some())
-                .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
-        };
         // "How far is the cup from the kettle? … And the other one?"
         let compared = |exchange: &Exchange| {
             let all = exchange.compared();
@@ -184,23 +177,16 @@ impl Knowledge<'_> {
             let all = exchanges.iter().map(Exchange::compared).find(|all| all.contains(&topic))?;
             Some(all.iter().copied().filter(|t| *t != topic).collect::<Vec<_>>())
         };
-        if let Some(rest) = exchanges
-            .iter()
-            .skip(1)
-            .find_map(wider)
+        if let Some(rest) = self
+            .rest_of_list(told)
             .or_else(|| exchanges.iter().find_map(compared))
             .or_else(of_topic)
         {
             return Some(rest);
         }
         let others = |thing: &Thing| {
-            let all = match (self.kind_of(*thing), thing) {
-                (Some(kind), _) => self.members(&self.lexicon().kind(kind).extension),
-                (None, Thing::Entity(Entity::Door(_))) => self.members(&Extension::Doors),
-                (None, _) => return None,
-            };
-            let rest: Vec<Thing> = all.into_iter().filter(|t| t != thing).collect();
-            (!rest.is_empty()).then_some(rest)
+            let rest = self.all_like(*thing).into_iter().filter(|t| t != thing);
+            Some(rest.collect::<Vec<Thing>>()).filter(|rest| !rest.is_empty())
         };
         // "Where is the television? – On Cabinet 2. – And the other one?": no cabinet, where there is one television.
         if let [only] = told[..] {
@@ -224,6 +210,16 @@ impl Knowledge<'_> {
         }
     }
 
+    /// What was told before together with these, and is of one kind: "the second one" of a laptop and a book is none of what
+    /// lay with it.
+    pub(super) fn rest_of_list(&self, told: &[Thing]) -> Option<Vec<Thing>> {
+        self.memory.exchanges.iter().skip(1).map(Exchange::members).find_map(|all| {
+            let holds = !told.is_empty() && told.iter().all(|t| all.contains(t));
+            (holds && all.len() > told.len() && self.alike(all).is_some())
+                .then(|| all.iter().copied().filter(|t| !told.contains(t)).collect())
+        })
+    }
+
     /// "And on the other one?": of what was spoken of, the others of the kind of what may bear or hold something.
     fn other_bearing(&self, rel: Rel) -> Option<Vec<Thing>> {
         if !matches!(rel, Rel::On | Rel::In) {
@@ -233,8 +229,9 @@ impl Knowledge<'_> {
         let otherwise = self.places_otherwise(rel);
         let fits = |thing: &&Thing| self.may_be_anchor(rel, **thing) && !otherwise.contains(*thing);
         let meant = exchange.things().find(fits).copied()?;
-        let all = self.members(&self.lexicon().kind(self.kind_of(meant)?).extension);
-        let rest: Vec<Thing> = all.into_iter().filter(|thing| *thing != meant).collect();
+        self.kind_of(meant)?;
+        let rest: Vec<Thing> =
+            self.all_like(meant).into_iter().filter(|thing| *thing != meant).collect();
         (!rest.is_empty()).then_some(rest)
     }
 
@@ -307,6 +304,15 @@ impl Knowledge<'_> {
         };
         let all = sought.or_else(|| told.clone()).or_else(rooms)?;
         Some(Elided { all, told })
+    }
+
+    /// All things of the kind of one, which is one of them.
+    pub(super) fn all_like(&self, thing: Thing) -> Vec<Thing> {
+        match (self.kind_of(thing), thing) {
+            (Some(kind), _) => self.members(&self.lexicon().kind(kind).extension),
+            (None, Thing::Entity(Entity::Door(_))) => self.members(&Extension::Doors),
+            (None, _) => vec![thing],
+        }
     }
 
     /// The one kind of some things.

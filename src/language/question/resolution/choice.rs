@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::Resolver;
-use crate::command::Sort;
 use crate::question::Doubt;
 use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
@@ -25,16 +24,23 @@ impl Resolver<'_, '_> {
                 let told = memory.exchanges.iter().flat_map(|e| [e.compared(), e.members()]);
                 told.into_iter().find(|all| all.len() > 1).unwrap_or_default().to_vec()
             };
-            let spoken = match (noun.best.is_some(), memory.listed.is_empty()) {
-                (true, _) => compared(),
-                (false, true) => memory.spoken.clone(),
-                (false, false) => memory.listed.clone(),
+            // "Is the bathroom door shut? – Yes. – Open the bedroom one": of its kind.
+            let like = memory.exchanges.iter().map(|exchange| {
+                exchange.things().flat_map(|thing| knowledge.all_like(*thing)).collect()
+            });
+            let lists: Vec<Vec<Thing>> = match noun.best.is_some() {
+                true => vec![compared()],
+                false => std::iter::once(memory.listed.clone()).chain(like).collect(),
             };
-            if spoken.is_empty() {
-                return Err(Doubt::NoReferent { word: noun.text.clone() });
+            for spoken in lists.into_iter().filter(|all| !all.is_empty()) {
+                let head = Head { things: Some(spoken), ..Head::default() };
+                let found = self.candidates(&Noun { head, ..noun.clone() }, within)?;
+                if !found.is_empty() {
+                    return Ok(found);
+                }
             }
-            let head = Head { things: Some(spoken), ..Head::default() };
-            return self.candidates(&Noun { head, ..noun.clone() }, within);
+            // What of those that were told is nowhere there is not denied: something else was meant.
+            return Err(Doubt::NoReferent { word: noun.text.clone() });
         }
         if let Some(at) = within.iter().position(|r| r.rel == Rel::Has) {
             return self.bearing(noun, within, at);
@@ -252,36 +258,6 @@ impl Resolver<'_, '_> {
             [] => None,
             [only] => Some(*only),
             _ => self.nearest_of(found, 1).first().copied().or_else(|| found.first().copied()),
-        }
-    }
-
-    /// "The second one": of the last list, or of what was spoken of one after the other since. Where both have such a
-    /// thing, it is asked which.
-    pub(super) fn told_as(
-        &self,
-        rank: usize,
-        sort: Sort,
-        noun: &Noun,
-    ) -> Result<Option<Vec<Thing>>, Doubt> {
-        let memory = self.knowledge.memory;
-        let able = |thing: &Thing| self.knowledge.can(sort, *thing);
-        let listed = match &memory.listed[..] {
-            [] => &self.spoken,
-            listed => listed,
-        };
-        let in_turn = memory.in_turn(able);
-        let mut meant = match memory.listed.is_empty() {
-            true => listed.get(rank).filter(|_| listed.len() > 1).copied().into_iter().collect(),
-            false => memory.numbered(rank),
-        };
-        let other = in_turn.get(rank).filter(|_| in_turn.len() > 1);
-        if let Some(other) = other.filter(|thing| !meant.contains(thing)) {
-            meant.push(*other);
-        }
-        match meant.len() {
-            0 => Err(Doubt::NoReferent { word: noun.text.clone() }),
-            1 => Ok(Some(meant)),
-            _ => Err(Doubt::Ambiguous { reference: noun.text.clone(), candidates: meant }),
         }
     }
 

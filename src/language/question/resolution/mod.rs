@@ -24,13 +24,15 @@ pub use open::Corrected;
 pub use reply::rank_alone;
 
 use object::More;
-use place::{Spot, case_of};
+use place::Spot;
+pub(super) use place::case_of;
 use used::Used;
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
 use super::memory::{Ordered, Waiting};
+use super::numbered::{Done, counts};
 use super::query::{Head, Rel, Restriction, Thing};
 use super::{Asker, Doubt, Memory, Misread};
 use crate::command::{self, Sort};
@@ -39,7 +41,6 @@ use crate::paraphrase::lost;
 use crate::sets::set;
 use crate::units::{AreaId, InOrder as _};
 use crate::words::{Case, NounPhrase, enumerate, word_keys, word_ranges};
-use terse::counts;
 
 /// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
 pub type Strict<'a> = dyn Fn(&str) -> Option<Entity> + 'a;
@@ -102,6 +103,7 @@ impl Asker<'_> {
         if command::is_too_long(text) {
             return Ok(Resolved { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
+        let is_back = terse::says_back(text);
         let (gathered, not_meant) = command::gathered_of(text, &self.mind.paraphrases);
         let language = crate::words::Language::of(text);
         let misread = |doubt: Doubt| {
@@ -135,11 +137,14 @@ impl Asker<'_> {
             Err((doubt, at)) => return Err(self.asked_back(doubt, before, at, language, memory)),
         };
         let (is_any, by_number) = (text != before, counts(&said));
-        let text = match self.with_noun(text.clone(), memory) {
-            Ok(text) => text,
+        let spoken = waiting.map_or_else(|| memory.last.clone(), |waiting| waiting.candidates);
+        let sort = command::clauses(&text).first().map_or(Sort::Other, |(_, sort)| *sort);
+        let text = match self.with_names(&text, memory, Some(&Done { sort, spoken: &spoken })) {
+            Ok(named) => named.unwrap_or(text),
             Err((doubt, at)) => return Err(self.asked_back(doubt, text, at, language, memory)),
         };
-        let text = self.with_object(self.with_verb(text, memory), memory);
+        let text = self.with_verb(self.with_noun(text, memory), memory);
+        let text = self.with_object(text, is_back, memory).map_err(misread)?;
         let Used { text, at: used, heads } = self.with_use(text, language).map_err(misread)?;
         let numbers = lost(&said, &word_keys(&text)).into_iter();
         if let Some(number) = numbers.into_iter().find(|key| key.chars().all(char::is_numeric)) {
@@ -151,10 +156,6 @@ impl Asker<'_> {
         let language = sentence.language;
         let resolved = {
             let knowledge = self.knowledge(language, memory);
-            let spoken = match waiting {
-                Some(waiting) => waiting.candidates,
-                None => memory.last.clone(),
-            };
             let mut resolver =
                 Resolver { knowledge: &knowledge, sentence: &sentence, strict, spoken, used: None };
             // The best sort of what serves, of which there is one where the order says.
@@ -281,7 +282,7 @@ impl Asker<'_> {
 
 impl Knowledge<'_> {
     /// Several names as one argument of a command.
-    fn listed(&self, things: &[Thing], case: Case) -> String {
+    pub(super) fn listed(&self, things: &[Thing], case: Case) -> String {
         let names: Vec<String> = things.iter().map(|t| self.form(*t, case)).collect();
         enumerate(&names, self.language)
     }

@@ -79,11 +79,10 @@ impl Resolver<'_, '_> {
                 return Err((Doubt::NoReferent { word: noun.text.clone() }, at));
             }
             noun.head = Head { things: Some(spoken), ..Head::default() };
-            // "the second one", in the order in which they were told
+            // "The second one", where none of those that were told is.
             let bare = noun.filters.is_empty() && spots.is_empty();
-            if let (Some(rank), None, true) = (noun.rank, &noun.best, bare) {
-                let rank = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
-                return self.told_as(rank, sort, &noun).map_err(|doubt| (doubt, at));
+            if noun.rank.is_some() && noun.best.is_none() && bare {
+                return Err((Doubt::NoReferent { word: noun.text.clone() }, at));
             }
             // "the red one", and none of what was spoken of is: then of all that can be carried, say.
             if self.candidates(&noun, &[]).is_ok_and(|found| found.is_empty()) {
@@ -540,7 +539,7 @@ impl Knowledge<'_> {
     }
 
     /// Whether a verb of this sort can be done to a thing at all.
-    pub(super) fn can(&self, sort: Sort, thing: Thing) -> bool {
+    pub(in crate::question) fn can(&self, sort: Sort, thing: Thing) -> bool {
         let world = self.world;
         let has = |wanted: &str| thing.replica().is_some_and(|id| world.has_trait(id, wanted));
         match (sort, thing) {

@@ -480,7 +480,7 @@ fn is_storey(thing: &Thing) -> bool {
 }
 
 /// The case of a name after a preposition.
-pub(super) fn case_of(rel: Rel, whither: bool) -> Case {
+pub(in crate::question) fn case_of(rel: Rel, whither: bool) -> Case {
     match rel {
         Rel::To => Case::Dative,
         Rel::In | Rel::On if whither => Case::Accusative,

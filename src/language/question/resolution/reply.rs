@@ -277,9 +277,8 @@ impl Asker<'_> {
         if resolver.is_whither(*rel, nouns.first()?) == Some(true) {
             return None;
         }
-        let mut whole = ordered.without_places(object.end);
-        whole.insert_str(object.end, &format!(" {place}"));
-        Some(whole)
+        let there = format!("{} {place}", &ordered.text[object.clone()]);
+        Some(ordered.retold(&[(object, &there)]))
     }
 
     /// A reply whose misspelt words, of which there is one likely reading, are put right: «в кухнюу».

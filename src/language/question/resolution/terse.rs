@@ -13,7 +13,7 @@ use crate::question::vocabulary;
 use crate::question::{Asker, Doubt, Memory, Thing};
 use crate::sets::{Set, of_kind, set};
 use crate::words::{
-    Case, Language, NounPhrase, Number, WordHints, phrase_at, word_keys, word_ranges,
+    Case, Language, NounPhrase, Number, WordHints, english, phrase_at, word_keys, word_ranges,
 };
 
 /// What is said before an amendment.
@@ -31,9 +31,15 @@ static SAME: Set = Set::named("SameWith");
 /// Whither the last order went, once more.
 static THERE: Set = Set::named("ThereToo");
 
+static BACK: Set = Set::named("Back");
+
+/// Whether an order puts something back as it was: «выключи обратно».
+pub(super) fn says_back(text: &str) -> bool {
+    word_keys(text).iter().any(|key| BACK.contains(&key.as_str()))
+}
+
 /// «И обратно», "and back again": to where the robot was.
 fn is_back(text: &str) -> bool {
-    static BACK: Set = Set::named("Back");
     static SMALL: Set = Set::named("AroundBack");
     let keys = word_keys(text);
     let back = |key: &String| BACK.contains(&key.as_str());
@@ -112,11 +118,6 @@ fn only_moves(text: &str, order: &str) -> bool {
     matches!(&command::verbs_of(verb)[..], [said] if *said == (0..verb.len()))
         && moves(verb)
         && moves(order)
-}
-
-/// Whether one of these words is a number in an order: «вторую», "the second one".
-pub(super) fn counts(keys: &[String]) -> bool {
-    (0..keys.len()).any(|n| matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Rank(_)))))
 }
 
 fn has_clauses(text: &str) -> bool {
@@ -290,7 +291,9 @@ impl Asker<'_> {
                 if phrase.person.is_none() && phrase.pronoun.is_none() && are_places(places) =>
             {
                 let kindless = phrase.noun.head.anything;
-                is_placed = !places.is_empty() || !phrase.noun.restrictions.is_empty();
+                // "The other ones" are not where the first was, either.
+                is_placed =
+                    !places.is_empty() || !phrase.noun.restrictions.is_empty() || phrase.noun.other;
                 Some(self.amending(of_object, kindless, ordered, sentence.language)?)
             }
             [Item::Value(_)] => Some(self.amending(of_object, true, ordered, sentence.language)?),
@@ -351,6 +354,8 @@ impl Asker<'_> {
             return Some(said.to_owned());
         }
         let (_, things) = ordered.object.as_ref()?;
+        // "One" of whatever there is, is of no kind.
+        self.knowledge(language, &Memory::default()).alike(things)?;
         let kind = things.last().and_then(|t| self.kind_of(*t, language))?;
         // «тот, что на полке»
         if let Some((_, place)) = said.split_once(" что ").or(said.split_once(" который "))
@@ -361,8 +366,10 @@ impl Asker<'_> {
         if let Some((before, behind)) = said.split_once("one ") {
             return Some(format!("{before}{kind} {behind}"));
         }
-        let bare = said.strip_suffix(" ones").or(said.strip_suffix(" one")).unwrap_or(said);
-        Some(format!("{bare} {kind}"))
+        Some(match said.strip_suffix(" ones") {
+            Some(bare) => format!("{bare} {}", english::plural(&kind)),
+            None => format!("{} {kind}", said.strip_suffix(" one").unwrap_or(said)),
+        })
     }
 
     /// The same of a door as well.
@@ -453,15 +460,8 @@ impl Asker<'_> {
         }
     }
 
-    /// An adjective without its noun: «вторую» counts what was told, «красную» is of the kind of what was spoken of.
-    ///
-    /// # Errors
-    /// What was told and what orders took of it are counted differently.
-    pub(super) fn with_noun(
-        &self,
-        mut text: String,
-        memory: &Memory,
-    ) -> Result<String, (Doubt, Range<usize>)> {
+    /// An adjective without its noun: «красную» is of the kind of what was spoken of.
+    pub(super) fn with_noun(&self, mut text: String, memory: &Memory) -> String {
         const ENDINGS: [&str; 7] = ["ую", "юю", "ый", "ий", "ой", "ое", "ее"];
         let (words, keys) = (word_ranges(&text), word_keys(&text));
         let ends = |n: usize| match words.get(n) {
@@ -473,41 +473,16 @@ impl Asker<'_> {
         };
         let adjective = |n: &usize| ENDINGS.iter().any(|ending| keys[*n].ends_with(ending));
         let lone = (1..words.len()).filter(|n| ends(n + 1)).find(adjective);
-        let Some(n) = lone.filter(|_| !memory.last.is_empty()) else { return Ok(text) };
-        let language = Language::of(&text);
-        let noun = match vocabulary::longest(&keys[n..]) {
-            Some((1, Mark::Rank(rank))) => {
-                let rank = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
-                let told = match memory.listed.is_empty() {
-                    true => memory.last.get(rank).copied().into_iter().collect(),
-                    false => memory.numbered(rank),
-                };
-                let at = words[n].clone();
-                match told[..] {
-                    [] => {}
-                    [only] => {
-                        let name = self.knowledge(language, memory).form(only, Case::Accusative);
-                        text.replace_range(at, &name);
-                    }
-                    _ => {
-                        let reference = text[at.clone()].to_owned();
-                        return Err((Doubt::Ambiguous { reference, candidates: told }, at));
-                    }
-                }
-                return Ok(text);
-            }
-            _ => {
-                let value = self.mind.lexicon.values.longest(&keys[n..]);
-                let other = set!("OtherOne").contains(&keys[n].as_str());
-                let told = other || value.is_some_and(|(taken, _)| taken == 1);
-                let last = memory.last_things().into_iter().rev().find(|t| t.replica().is_some());
-                last.filter(|_| told).and_then(|t| self.kind_of(t, language))
-            }
-        };
+        let Some(n) = lone.filter(|_| !memory.last.is_empty()) else { return text };
+        let value = self.mind.lexicon.values.longest(&keys[n..]);
+        let other = set!("OtherOne").contains(&keys[n].as_str());
+        let told = other || value.is_some_and(|(taken, _)| taken == 1);
+        let last = memory.last_things().into_iter().rev().find(|t| t.replica().is_some());
+        let noun = last.filter(|_| told).and_then(|t| self.kind_of(t, Language::of(&text)));
         if let Some(noun) = noun {
             text.insert_str(words[n].end, &format!(" {noun}"));
         }
-        Ok(text)
+        text
     }
 
     /// What a pronoun means in a command: what was spoken of last, and of that only what its verb can be done to.
@@ -579,24 +554,42 @@ impl Asker<'_> {
         }
     }
 
-    /// «И в гостиной тоже включи»: what was switched last, where this says.
-    pub(super) fn with_object(&self, text: String, memory: &Memory) -> String {
-        let Some((object, ordered)) =
-            memory.ordered.as_ref().and_then(|o| Some((o.object.as_ref()?, o)))
-        else {
-            return text;
+    /// «И в гостиной тоже включи», «выключи обратно»: what was switched last, where this says, or as it was before.
+    ///
+    /// # Errors
+    /// The order before switched nothing that it could undo.
+    pub(super) fn with_object(
+        &self,
+        text: String,
+        is_back: bool,
+        memory: &Memory,
+    ) -> Result<String, Doubt> {
+        let [(_, sort @ (Sort::Switch | Sort::Door))] = command::clauses(&text)[..] else {
+            return Ok(text);
         };
-        let [(_, Sort::Switch)] = command::clauses(&text)[..] else { return text };
         let described = command::without_verbs(&text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
         let items = sentence.items();
         let places = items.iter().any(|item| matches!(item, Item::Place { .. }));
         let nouns = items.iter().any(|item| matches!(item, Item::Noun(_)));
-        if !places || nouns {
-            return text;
+        if nouns || !is_back && (!places || sort == Sort::Door) {
+            return Ok(text);
         }
-        let said = &ordered.text[object.0.clone()];
-        let text = text.trim_end_matches(['.', '!']);
-        format!("{text} {said}")
+        let alike = |ordered: &&Ordered| {
+            !is_back
+                || matches!(command::clauses(&ordered.text)[..], [(_, before)] if before == sort)
+        };
+        let ordered = memory.ordered.as_ref().filter(alike);
+        let ordered = ordered.and_then(|ordered| Some((ordered.object.as_ref()?, ordered)));
+        let bare = text.trim_end_matches(['.', '!']);
+        Ok(match ordered {
+            Some(((_, things), ordered)) if is_back && ordered.is_resolved => {
+                let knowledge = self.knowledge(ordered.language, memory);
+                format!("{bare} {}", knowledge.listed(things, Case::Accusative))
+            }
+            Some(((at, _), ordered)) if !is_back => format!("{bare} {}", &ordered.text[at.clone()]),
+            _ if is_back => return Err(Doubt::not_understood(&text)),
+            _ => text,
+        })
     }
 }
