@@ -32,70 +32,6 @@ fn some(questions: &[String], step: usize) -> impl Iterator<Item = &String> {
     questions.iter().step_by(if long() { step } else { 5 * step })
 }
 
-/// What people say around a question: before it, and behind it.
-const RUSSIAN: [(&str, &str); 15] = [
-    ("Хочу присесть, ", ""),
-    ("Мне надо поспать, ", ""),
-    ("Я всё перепутал: ", ""),
-    ("слушай, ", ""),
-    ("Муж опять ворчит, ", ""),
-    ("скажи честно, ", ""),
-    ("Не пойму что-то, ", ""),
-    ("слышь, ", ""),
-    ("Ой, я совсем запутался... ", ""),
-    ("Гости скоро придут. ", ""),
-    ("", ", если не секрет?"),
-    ("", ", не подскажешь?"),
-    ("", " А то я забыл."),
-    ("доброе утро, ", ", а?"),
-    ("Дай-ка подумать... ", ""),
-];
-
-const ENGLISH: [(&str, &str); 13] = [
-    ("I want to sit down, ", ""),
-    ("I need to take a nap, so ", ""),
-    ("By the way, ", ""),
-    ("listen, ", ""),
-    ("My wife keeps nagging me, ", ""),
-    ("ok weird question: ", ""),
-    ("Sorry to bother you, but ", ""),
-    ("I just woke up, ", ""),
-    ("while you're at it, ", ""),
-    ("Honestly, I forgot. ", ""),
-    ("", ", if you don't mind me asking?"),
-    ("", ", do you know?"),
-    ("um, ", ", please?"),
-];
-
-/// Asides told around golden questions: the answer is the same, or there is none; and mostly there is one.
-#[test]
-#[expect(clippy::print_stdout, reason = "how many are understood is worth seeing")]
-fn what_is_said_around_a_question_changes_no_answer() {
-    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
-    for (case, asides) in [("rb2-ru", &RUSSIAN[..]), ("rb2-en", &ENGLISH[..])] {
-        let (mut asked, mut same, mut changed) = (0, 0, Vec::new());
-        for question in some(&golden(case), 5) {
-            let Some(plain) = answered(&rb2, question, &mut Memory::default()) else { continue };
-            for (before, behind) in asides {
-                let bare = question.trim_end_matches(['?', '.', '!']);
-                let line = match behind.ends_with(['?', '.']) && !behind.starts_with(' ') {
-                    true => format!("{before}{bare}{behind}"),
-                    false => format!("{before}{question}{behind}"),
-                };
-                asked += 1;
-                match answered(&rb2, &line, &mut Memory::default()) {
-                    None => {}
-                    Some(told) if told == plain => same += 1,
-                    Some(told) => changed.push(format!("{line}\n  {told}\n  {plain}")),
-                }
-            }
-        }
-        println!("{case}: {same} of {asked} as without the aside, {} otherwise", changed.len());
-        assert!(changed.is_empty(), "{case}:\n{}", changed.join("\n"));
-        assert!(same * 100 >= asked * 75, "{case}: {same} of {asked}");
-    }
-}
-
 /// A claim that somebody makes is answered as the question is whether it is so.
 #[test]
 fn a_claim_of_others_is_asked_after() {
@@ -412,63 +348,6 @@ fn whose_name_is_asked_is_told_no_list() {
         for whose in ["my", "your wife's", "the robot's", "the", "its", "everybody's"] {
             let line = format!("{asked} {whose} name?");
             assert_ne!(answer(&line).as_deref(), Some(everything.as_str()), "{line}");
-        }
-    }
-}
-
-/// What bounds a question stands before it or behind it, and is never left aside: the answer says what it makes of it, or
-/// there is none.
-#[test]
-fn what_bounds_a_question_is_not_left_aside() {
-    let rb2 = engine("maps/rb2.toml").expect("part of the crate");
-    let query = |question: &str| {
-        let answer = rb2.ask(question, &mut Memory::default()).expect("there is a map").ok()?;
-        Some((format!("{:?}", answer.query), answer.text))
-    };
-    let russian = [
-        "не открывая дверей",
-        "не заходя в коридор",
-        "не считая первой",
-        "за исключением красных",
-        "не больше двух",
-        "помимо вазы",
-        "минуя кухню",
-        "хотя бы три",
-        "тяжелее килограмма",
-        "но не больше метра",
-    ];
-    let english = [
-        "without opening any door",
-        "not counting the first one",
-        "apart from the red ones",
-        "excluding the kitchen",
-        "without going through the hall",
-        "heavier than a kilo",
-        "bypassing the kitchen",
-    ];
-    let asked = [
-        (&russian[..], "Какие чашки есть в доме?"),
-        (&russian[..], "Сколько стульев в гостиной?"),
-        (&russian[..], "Куда можно попасть из спальни?"),
-        (&english[..], "Which cups are there in the house?"),
-        (&english[..], "How many chairs are in the living room?"),
-    ];
-    for (bounds, question) in asked {
-        let (plain, _) = query(question).expect("a plain question");
-        let bare = question.trim_end_matches('?');
-        for bound in bounds {
-            for line in [
-                format!("{bare} {bound}?"),
-                format!("{bare}, {bound}?"),
-                // A number by itself may count on one's fingers.
-                format!("{}, {question}", bound.trim_start_matches("хотя бы три")),
-            ] {
-                if line.starts_with(',') {
-                    continue;
-                }
-                let told = query(&line);
-                assert!(told.as_ref().is_none_or(|(own, _)| *own != plain), "{line}: {told:?}");
-            }
         }
     }
 }

@@ -4,6 +4,7 @@ mod accounted;
 mod after_the_order;
 mod agreement;
 mod architecture;
+mod asides;
 mod asked_back;
 mod assembly;
 mod beside_the_order;

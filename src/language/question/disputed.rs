@@ -3,8 +3,8 @@
 //! Invariant: each claim is judged by the map, and neither by the other; where one of them is not understood, or not known,
 //! nothing is said of the two.
 
+use super::clauses::{JOINTS, is_reported};
 use super::mark::Mark;
-use super::salvage::{JOINTS, is_reported};
 use super::why::without_verdict;
 use super::{Answer, Asker, Memory, Said, vocabulary};
 use crate::sets::Set;

@@ -17,6 +17,7 @@ mod asides;
 mod assemble;
 mod bare;
 mod beside;
+mod clauses;
 mod compared;
 mod conditions;
 mod convenience;
@@ -211,6 +212,11 @@ impl Answer {
 
     /// The same, with what was understood said before it.
     fn understood_as(self, asked: &str, language: Language) -> Self {
+        // What a part of it was understood as is said of that part.
+        if ["Понял так: «", "Understood as “"].iter().any(|said| self.text.starts_with(said))
+        {
+            return self;
+        }
         let asked = asked.trim_end_matches(['?', '.', '!', ',', ' ']);
         let understood =
             language.pick(format!("Понял так: «{asked}?»"), format!("Understood as “{asked}?”"));
@@ -298,6 +304,19 @@ impl Asker<'_> {
     /// # Errors
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
+        let before = memory.clone();
+        let answer = self.heard(text, memory)?;
+        if let Some(told) = self.passed_over(text, &answer, &before) {
+            *memory = before;
+            let doubt = Doubt::unheeded(told);
+            memory.miss(&doubt, false);
+            return Err(self.knowledge(answer.language, memory).unanswered(doubt));
+        }
+        Ok(answer)
+    }
+
+    /// The same, whatever bounds it.
+    fn heard(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
         // A hyphen between blanks stands for a dash.
         let text = unaddressed(text).replace(" - ", " – ");
         let text = &*address::untagged(&text);
@@ -347,9 +366,13 @@ impl Asker<'_> {
                 Doubt::NotUnderstood { .. } | Doubt::Unknown { .. } | Doubt::NoReferent { .. }
             )
             && !is_noted
-            && let Some(answer) = self.after_preamble(text, memory)
+            && let Some(rest) = self.without_idle(text)
         {
-            return Ok(answer);
+            let mut after = memory.clone();
+            if let Ok(answer) = self.ask(&rest, &mut after) {
+                *memory = after;
+                return Ok(answer.understood_as(&rest, language));
+            }
         }
         let outcome = outcome.or_else(|unanswered| {
             if is_noted {

@@ -3,6 +3,7 @@
 //! Invariant: what is left aside limits nothing, asks nothing, and tells no number, no value and no place but the person's;
 //! a thing that it names is spoken of; and what was understood is said with the answer.
 
+use super::clauses::{JOINTS, behind_joint, is_reported, parts, parts_of};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::told_aside::{Named, is_polite, is_wish, only_begs, tells};
@@ -38,10 +39,6 @@ impl Asker<'_> {
         language: Language,
         memory: &Memory,
     ) -> Option<Outcome> {
-        let parted = self.without_interjection(text);
-        let tailless = self.without_idle_tail(parted.as_deref().unwrap_or(text));
-        let shortened = tailless.or(parted);
-        let (text, whole) = (shortened.as_deref().unwrap_or(text), shortened.is_some());
         let parts = parts(text);
         if parts.len() > MOST_PARTS {
             return None;
@@ -107,7 +104,7 @@ impl Asker<'_> {
                 let begs = |text: &&str| parts_of(text).any(|part| only_begs(&word_keys(part)));
                 let whether = matches!(before.last().map(String::as_str), Some("if" | "whether"));
                 let claimed = reported && (whether || self.asks(text)) || aside.iter().any(begs);
-                if asked.len() == text.trim().len() && !whole || !(self.asks(asked) || claimed) {
+                if asked.len() == text.trim().len() || !(self.asks(asked) || claimed) {
                     continue;
                 }
                 let Some(told) = self.told_aside(&aside, asked, memory) else { break };
@@ -220,78 +217,6 @@ impl Asker<'_> {
         Some(told)
     }
 
-    /// A question without what is thrown in behind its question word: «Какого, блин, цвета …?», "Where, pray tell, is …?"
-    fn without_interjection(&self, text: &str) -> Option<String> {
-        const MOST: usize = 3;
-        let parts = parts(text);
-        let [(from, first), (thrown, last), (rest, _), ..] = parts[..] else { return None };
-        let items = |part: &str| {
-            let plain = self.plain(part);
-            Sentence::new(&plain, &self.mind.lexicon).items()
-        };
-        let asks = items(&text[from..first]).iter().all(|item| matches!(item, Item::Mark(_)))
-            && opening::begins_question(&word_keys(&text[from..first]));
-        let thrown = &text[thrown..last];
-        let says_nothing = |item: &Item| match item {
-            Item::Unknown(_) => true,
-            Item::Mark(mark) => matches!(mark, Mark::Filler | Mark::But | Mark::You | Mark::Me),
-            _ => false,
-        };
-        let idle = word_keys(thrown).len() <= MOST
-            && !thrown.ends_with('?')
-            && !self.is_word(thrown)
-            && items(thrown).iter().all(says_nothing);
-        (asks && idle).then(|| format!("{} {}", &text[from..first], &text[rest..]))
-    }
-
-    /// A line without an "or" at its end that puts nothing of the map for choice: "…, or shall I get up?", «… или всё
-    /// съели?»
-    fn without_idle_tail(&self, text: &str) -> Option<String> {
-        let (words, keys) = (word_ranges(text), word_keys(text));
-        let or = keys.iter().rposition(|key| set!("Or").contains(&key.as_str()))?;
-        let tail = text.get(words.get(or + 1)?.start..)?;
-        // «или нет» belongs to what is asked.
-        let is_idle = |word: &String| set!("IdleQuestion").contains(&word.as_str());
-        let or_what = matches!(&word_keys(tail)[..], [only] if is_idle(only));
-        if or < 2 || word_keys(tail).len() < 2 && !or_what {
-            return None;
-        }
-        let plain = self.plain(tail);
-        let sentence = Sentence::new(&plain, &self.mind.lexicon);
-        let idle = |item: &Item| match item {
-            Item::Unknown(_) => true,
-            Item::Noun(phrase) => phrase.person.is_some() && phrase.person != Some(Mark::There),
-            Item::Mark(mark) => matches!(
-                mark,
-                Mark::Filler
-                    | Mark::But
-                    | Mark::The
-                    | Mark::And
-                    | Mark::Me
-                    | Mark::You
-                    | Mark::Be
-                    | Mark::Can
-                    | Mark::Cannot
-                    | Mark::Must
-                    | Mark::All
-                    | Mark::Each
-                    | Mark::Move
-                    | Mark::What
-                    | Mark::Who
-                    | Mark::Have
-            ),
-            _ => false,
-        };
-        let items = sentence.items();
-        let says = items
-            .iter()
-            .any(|item| !matches!(item, Item::Mark(Mark::Filler | Mark::But | Mark::The)));
-        (or_what || says && items.iter().all(idle)).then(|| {
-            let kept = text[..words[or].start].trim_end_matches([' ', ',', '–', '—', '.', '…']);
-            format!("{kept}?")
-        })
-    }
-
     /// A line without an "or" before or behind which a person only doubts of itself: "Is it me or …?", «Мне кажется или …?»,
     /// "… or am I seeing things?"
     pub(super) fn without_self_doubt<'t>(&self, text: &'t str) -> Option<&'t str> {
@@ -339,7 +264,7 @@ impl Asker<'_> {
         items.iter().any(of_me) && items.iter().all(|item| of_me(item) || idle(item))
     }
 
-    fn asks(&self, text: &str) -> bool {
+    pub(super) fn asks(&self, text: &str) -> bool {
         let words = word_keys(text);
         let whether = |last: &[String]| set!("OrNot").contains(&last.join(" ").as_str());
         opening::begins_question(&words)
@@ -412,41 +337,12 @@ impl Asker<'_> {
     }
 }
 
-/// Words between who says something and what is said.
-pub(super) static JOINTS: Set = Set::named("JoinsReport");
-
 /// A text without the words at its end that only join what is said: «Жена говорит, что».
 fn without_joint(text: &str) -> &str {
     let (words, keys) = (word_ranges(text), word_keys(text));
     let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
     let kept = words.len().checked_sub(joints + 1).and_then(|last| words.get(last));
     kept.map_or("", |last| &text[..last.end])
-}
-
-/// A part without the joint that begins it.
-fn behind_joint(part: &str) -> &str {
-    let keys = word_keys(part);
-    match (keys.first(), word_ranges(part).get(1)) {
-        (Some(first), Some(second)) if JOINTS.contains(&first.as_str()) => &part[second.start..],
-        _ => part,
-    }
-}
-
-/// Whether words end by telling that somebody says or thinks what follows: «муж говорит, что», "my wife reckons".
-pub(super) fn is_reported(keys: &[String]) -> bool {
-    static SAYING: Set = Set::named("Saying");
-    static STEMS: Set = Set::named("SayingStem");
-    static KNOWING: Set = Set::named("Knowing");
-    let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
-    let (before, joined) = keys.split_at(keys.len() - joints);
-    let Some(last) = before.last() else { return false };
-    let whether = joined.iter().any(|key| key == "if" || key == "whether");
-    let says = SAYING.contains(&last.as_str()) || STEMS.iter().any(|stem| last.starts_with(stem));
-    let confirms = set!("Confirm").contains(&last.as_str());
-    match whether {
-        true => says || KNOWING.contains(&last.as_str()),
-        false => says || confirms && !joined.is_empty(),
-    }
 }
 
 /// "Tell me the door is locked", «скажи, дверь заперта»: who begs so asks whether.
@@ -477,31 +373,4 @@ pub(super) fn goes_on(before: &str, part: &str) -> bool {
         Some(first) => first.starts_with("котор") && !told.is_empty(),
         None => false,
     }
-}
-
-/// The same by their text.
-fn parts_of(text: &str) -> impl Iterator<Item = &str> {
-    parts(text).into_iter().map(move |(from, to)| &text[from..to])
-}
-
-/// The parts of a line between its marks, by their bytes.
-fn parts(text: &str) -> Vec<(usize, usize)> {
-    let mut parts = Vec::new();
-    let mut from = 0;
-    let ends = text.char_indices().filter(|(at, c)| {
-        // "Quick one: …", but "10:30"
-        let ends = *c == ':' && text[at + 1..].starts_with(' ');
-        ends || matches!(c, ',' | ';' | '.' | '!' | '?' | '…' | '–' | '—')
-    });
-    let ends = ends.map(|(at, mark)| (at, at + mark.len_utf8())).chain([(text.len(), text.len())]);
-    for (end, next) in ends {
-        let part = &text[from..end];
-        let lead = part.len() - part.trim_start().len();
-        if !part.trim().is_empty() {
-            let closes = text[end..next].trim().starts_with('?');
-            parts.push((from + lead, if closes { next } else { from + part.trim_end().len() }));
-        }
-        from = next;
-    }
-    parts
 }

@@ -3,13 +3,12 @@
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Denial;
-use super::salvage::{goes_on, is_reported};
 use super::{
     Answer, Asker, Doubt, Memory, Noun, Outcome, Query, Rel, Restriction, Thing, Unanswered,
     opening, premise, several, vocabulary,
 };
 use crate::command::is_too_long;
-use crate::sets::{Set, set};
+use crate::sets::set;
 use crate::words::{Language, word_keys, word_ranges};
 
 /// Whether a question was understood, and means several things or one that the map has not.
@@ -268,7 +267,7 @@ impl Asker<'_> {
         // "I'm on the sofa, what's the nearest bin?"
         if let [only] = parts[..]
             && let Some((told, asked)) = only.split_once([',', ';', '–', '—'])
-            && self.premise(told).is_some()
+            && (self.premise(told).is_some() || self.is_topic(told, asked))
         {
             parts = vec![told.trim(), asked.trim()];
         }
@@ -421,41 +420,17 @@ impl Asker<'_> {
         Some(format!("{}{kind}{}", &asked[..words[at].start], &asked[words[at].end..]))
     }
 
-    /// «Хочу пить, где чашки?»: what is asked stands behind the comma; before it nothing limits the question.
-    pub(super) fn after_preamble(&self, text: &str, memory: &mut Memory) -> Option<Answer> {
-        static LIMITS: Set = Set::named("LimitsClause");
-        let first = word_keys(text).into_iter().next()?;
-        if LIMITS.contains(&first.as_str()) {
-            return None;
-        }
-        let (told, asked) = text.split_once([',', ';', '–', '—'])?;
-        let words = word_keys(asked);
-        // «дальше от двери, чем стол»
-        let compares = set!("Than").contains(&words.first().map_or("", String::as_str));
-        if words.len() < 2
-            || compares
-            || !opening::begins_question(&words)
-            || several::asks_in(told)
-            || is_reported(&word_keys(told))
-            || self.tells_how_much(told)
-            || self.limits(told)
-            || self.narrows(told, asked)
-            // «А в той, что меньше?»
-            || goes_on(told, asked)
-            || (premise::says_here(asked) && self.tells_of_place(told))
-        {
-            return None;
-        }
-        let mut after = memory.clone();
-        self.hear_of(told, &mut after);
-        if self.is_astray(told) {
-            Self::lose_person(told, &mut after);
-        }
-        let answer = self.ask(asked.trim(), &mut after).ok()?;
-        let answer = self.heeding(&[told], answer, &after).ok()?;
-        after.learn(&answer);
-        *memory = after;
-        Some(answer)
+    /// "The one in the bedroom — what's it standing on?": what is named is what the pronoun means.
+    fn is_topic(&self, named: &str, asked: &str) -> bool {
+        let plain = self.plain(named);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        let names = |item: &Item| match item {
+            Item::Noun(phrase) => phrase.person.is_none() && phrase.pronoun.is_none(),
+            item => matches!(item, Item::Place { .. }),
+        };
+        matches!(&items[..], [first @ Item::Noun(_), rest @ ..] if names(first) && rest.iter().all(names))
+            && !self.pronouns(asked).is_empty()
+            && opening::begins_question(&word_keys(asked))
     }
 
     /// Whether what is told is where something is, or may be where the person is.
@@ -463,13 +438,6 @@ impl Asker<'_> {
         let plain = self.plain(told);
         let items = Sentence::new(&plain, &self.mind.lexicon).items();
         items.iter().any(|item| matches!(item, Item::Place { .. }))
-    }
-
-    /// «Расскажи кратко, …»: how much is asked for.
-    fn tells_how_much(&self, text: &str) -> bool {
-        let plain = self.plain(text);
-        let items = Sentence::new(&plain, &self.mind.lexicon).items();
-        items.iter().any(|item| matches!(item, Item::Mark(Mark::Detail(_))))
     }
 
     /// Notes what a sentence names that asks nothing.

@@ -39,7 +39,9 @@ impl Asker<'_> {
             _ => false,
         };
         // «короче» alone only hesitates.
-        let compares = items.len() > 1;
+        // «Сил моих больше нет»
+        let no_more = matches!(items[..], [.., Item::Mark(Mark::More(_)), Item::Mark(Mark::Not)]);
+        let compares = items.len() > 1 && !no_more;
         let numbered = items.iter().all(|item| matches!(item, Item::Mark(_) | Item::Number(_)));
         let bounds = |item: &Item| match item {
             Item::Number(_) => numbered,
@@ -60,19 +62,11 @@ impl Asker<'_> {
 
     /// What a part of a line names which supposes nothing, excepts nothing and asks nothing; none of one that does.
     pub(super) fn names_only(&self, text: &str, memory: &Memory) -> Option<Named> {
-        static LIMITS: Set = Set::named("LimitsAside");
         let keys = word_keys(text);
-        let (last, before) = match keys.split_last() {
-            None => return Some(Named::default()),
-            Some((last, before)) => (last, before),
-        };
-        if self.limits(text) {
-            return None;
+        if keys.is_empty() {
+            return Some(Named::default());
         }
-        // "Sorry to bother you, but …" limits nothing; "all but …" does.
-        let joint = |key: &String| matches!(key.as_str(), "but") && before.len() > 2;
-        let limits = |key: &String| LIMITS.contains(&key.as_str()) && !joint(key);
-        if !is_polite(&keys) && before.iter().chain([last]).any(limits) {
+        if self.bounds(text) {
             return None;
         }
         // «Почитать бы чего» wishes; who begs to be told asks nothing more: «не подскажешь?»

@@ -62,6 +62,11 @@ pub(crate) fn says_nothing(word: &str) -> bool {
     word.chars().all(|c| matches!(c, 'а'..='я' | 'ё')) && source::says_nothing(word)
 }
 
+/// Whether a word (lower case) may be what a Russian clause says of its subject: a verb in the indicative, a short adjective.
+pub(crate) fn may_be_predicate(word: &str) -> bool {
+    word.chars().all(|c| matches!(c, 'а'..='я' | 'ё')) && source::may_be_predicate(word)
+}
+
 #[cfg(not(feature = "rumorph"))]
 mod source {
     use super::{Known, Noun, Number, PartsOfSpeech};
@@ -87,6 +92,10 @@ mod source {
     }
 
     pub(super) fn is_first_person(_word: &str) -> bool {
+        false
+    }
+
+    pub(super) fn may_be_predicate(_word: &str) -> bool {
         false
     }
 }
@@ -162,6 +171,14 @@ mod source {
 
     pub(super) fn is_first_person(word: &str) -> bool {
         every_reading(word, |tag| tag.pos() == "VERB" && tag.feat("Person") == Some("1"))
+    }
+
+    pub(super) fn may_be_predicate(word: &str) -> bool {
+        some_reading(word, |tag| match tag.pos() {
+            "VERB" => tag.feat("Mood") == Some("Ind"),
+            "ADJ" => tag.feat("Variant") == Some("Short"),
+            _ => false,
+        })
     }
 
     fn every_reading(word: &str, is: impl Fn(&UdTag<'_>) -> bool) -> bool {

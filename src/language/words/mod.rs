@@ -34,7 +34,7 @@ pub mod russian;
 pub(crate) mod things;
 
 pub(crate) use dictionary::{
-    is_first_person, is_russian_word, ordering_verb, readings, says_nothing,
+    is_first_person, is_russian_word, may_be_predicate, ordering_verb, readings, says_nothing,
 };
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};

@@ -1,0 +1,310 @@
+//! The clauses of a line, and which of them bound what it asks: "Once I close the door, …", «Летом …», "…, except the red ones".
+//!
+//! Invariant: a line is not answered as if what bounds its question had not been said.
+
+use std::ops::Range;
+
+use super::grammar::{Item, Phrase, Sentence};
+use super::mark::Mark;
+use super::orders::hinges;
+use super::told_aside::is_polite;
+use super::{Answer, Asker, Memory, opening, several, vocabulary};
+use crate::sets::{Set, set};
+use crate::words::{may_be_predicate, phrase_at, word_keys, word_ranges};
+
+/// What begins a condition, a time, or what is left out.
+static BOUNDS: Set = Set::named("BoundsClause");
+
+/// What joins a clause to another.
+static JOINS: Set = Set::named("JoinsClause");
+
+impl Asker<'_> {
+    /// What bounds the question of a line, where the line is read as it is without that.
+    pub(super) fn passed_over<'t>(
+        &self,
+        text: &'t str,
+        answer: &Answer,
+        before: &Memory,
+    ) -> Option<&'t str> {
+        let mut bounds = candidates(text).into_iter().filter(|at| self.bounds(&text[at.clone()]));
+        bounds
+            .find(|at| {
+                let rest = without(text, at);
+                !word_keys(&rest).is_empty()
+                    && self
+                        .heard(&rest, &mut before.clone())
+                        .is_ok_and(|plain| plain.query == answer.query)
+            })
+            .map(|at| &text[at])
+    }
+
+    /// Whether a clause tells under which condition, when, or of what alone it is asked.
+    pub(super) fn bounds(&self, clause: &str) -> bool {
+        let keys = word_keys(clause);
+        let small =
+            keys.iter().take_while(|key| set!("BeforeOrder").contains(&key.as_str())).count();
+        // "If so, where?"
+        let asks_back = hinges(&keys[small..]) || several::is_tag(&keys.join(" "));
+        if is_polite(&keys) || asks_back || self.premise(clause).is_some() {
+            return false;
+        }
+        let taken = BOUNDS.iter().filter_map(|phrase| phrase_at(&keys, small, phrase)).max();
+        taken.is_some_and(|taken| keys.len() > small + taken)
+            || self.limits(clause)
+            || self.is_adverbial(clause)
+    }
+
+    /// «После ремонта», "last week", «летом»: no clause of its own, but a time or a place of what is asked.
+    fn is_adverbial(&self, clause: &str) -> bool {
+        let keys = word_keys(clause);
+        let begins = set!("Adverbial").iter().any(|phrase| phrase_at(&keys, 0, phrase).is_some());
+        let plain = self.plain(clause);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
+        let governed = matches!(items.first(), Some(Item::Link(_) | Item::Place { .. }));
+        let says = |item: &Item| match item {
+            Item::Mark(mark) => matches!(
+                mark,
+                Mark::Be | Mark::Have | Mark::Can | Mark::Cannot | Mark::Must | Mark::Me
+            ),
+            Item::Noun(phrase) => phrase.person.is_some() || phrase.pronoun.is_some(),
+            Item::Unknown(words) => {
+                sentence.keys[words.clone()].iter().any(|key| may_be_predicate(key))
+            }
+            _ => false,
+        };
+        let unknown = items.iter().any(|item| matches!(item, Item::Unknown(_)));
+        (begins || governed && unknown) && !items.iter().any(says)
+    }
+
+    /// A line without its clauses that name nothing of the map and bound nothing: «Муж уехал в командировку, где …?», "Where,
+    /// pray tell, is …?", "…, or shall I get up?" None where there is none such, or nothing else.
+    pub(super) fn without_idle(&self, text: &str) -> Option<String> {
+        let clauses = clauses(text);
+        let (mut kept, mut last, mut reports) = (String::new(), 0, true);
+        for (n, clause) in clauses.iter().enumerate() {
+            let said = &text[clause.clone()];
+            let asks = self.asks_by_marks(&kept);
+            let leads = kept.is_empty() || asks && n + 1 < clauses.len();
+            // «Извини, что отвлекаю»: what goes on from an idle clause.
+            let told = if reports && !self.bounds(said) { behind_joint(said) } else { said };
+            // The mark behind the last clause is that of the question.
+            let ends = n + 1 == clauses.len() && self.asks(&kept);
+            // «Жена говорит, что дверь заперта»: of what somebody says it is asked whether it is so; "I guess, but where …?"
+            let next = clauses.get(n + 1).map(|next| word_keys(&text[next.clone()]));
+            let reported =
+                |keys: &[String]| keys.first().is_some_and(|key| JOINTS.contains(&key.as_str()));
+            let anew = |keys: &Vec<String>| {
+                joined(keys) > 0 || opening::begins_question(keys) && !reported(keys)
+            };
+            let claims = is_reported(&word_keys(told)) && !next.as_ref().is_some_and(anew);
+            reports = !claims
+                && self.is_idle(told.trim_end_matches(['?', ' ']), leads)
+                && (ends || !said.ends_with('?'));
+            if reports {
+                continue;
+            }
+            // "So where is it?"
+            let behind = (n > 0 && kept.is_empty())
+                .then(|| word_ranges(said))
+                .and_then(|words| Some(clause.start + words.get(joined(&word_keys(said)))?.start));
+            let clause = behind.unwrap_or(clause.start)..clause.end;
+            let said = &text[clause.clone()];
+            let between = &text[last..clause.start];
+            let joined = match (kept.is_empty(), n > 0 && clauses[n - 1].end > last) {
+                (true, _) => "",
+                (false, false) => between,
+                (false, true) if asks => " ",
+                (false, true) if between.contains(['.', '!', '?', '…']) => ". ",
+                (false, true) => ", ",
+            };
+            kept = format!("{kept}{joined}{said}");
+            last = clause.end;
+        }
+        let some = !kept.is_empty() && word_keys(&kept).len() < word_keys(text).len();
+        let asks = text.contains('?') && !kept.ends_with('?');
+        some.then(|| if asks { format!("{kept}?") } else { kept })
+    }
+
+    /// Whether a beginning only asks, and of nothing yet: «Какого», "Where".
+    fn asks_by_marks(&self, begun: &str) -> bool {
+        let plain = self.plain(begun);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        items.iter().all(|item| matches!(item, Item::Mark(_)))
+            && opening::begins_question(&word_keys(begun))
+    }
+
+    /// Whether a clause names nothing of the map and bounds nothing. Of a few words before the question ("blimey") none need
+    /// be known; behind it, or more of them, they say something of the person, of others, or of the day.
+    fn is_idle(&self, clause: &str, leads: bool) -> bool {
+        const MOST: usize = 4;
+        let (words, keys) = (word_ranges(clause), word_keys(clause));
+        let taken = joined(&keys);
+        let or = keys.first().is_some_and(|key| set!("Or").contains(&key.as_str()));
+        let Some(first) = words.get(taken) else { return false };
+        let said = &clause[first.start..];
+        let keys = &keys[taken..];
+        let idle_question = matches!(keys, [only] if set!("IdleQuestion").contains(&only.as_str()));
+        if or && keys.len() < 2 {
+            return idle_question;
+        }
+        let asks = !or && (opening::asks_at_once(keys) || several::asks_outright(said));
+        if asks || self.bounds(said) || self.is_astray(said) || self.premise(said).is_some() {
+            return false;
+        }
+        let plain = self.plain(said);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
+        let memory = Memory::default();
+        let knowledge = self.knowledge(sentence.language, &memory);
+        let person = |phrase: &Phrase| phrase.person.is_some_and(|mark| mark != Mark::There);
+        let of_person = |item: &Item| match item {
+            Item::Mark(mark) => matches!(mark, Mark::Me | Mark::You),
+            Item::Noun(phrase) => person(phrase),
+            _ => false,
+        };
+        let says = |item: &Item| match item {
+            Item::Mark(Mark::Be | Mark::Have | Mark::Can | Mark::Cannot | Mark::Must) => true,
+            Item::Unknown(words) => {
+                sentence.keys[words.clone()].iter().any(|key| may_be_predicate(key))
+            }
+            Item::Noun(phrase) => person(phrase) || phrase.pronoun.is_some(),
+            item => of_person(item),
+        };
+        let is_clause = items.iter().any(says)
+            && items.iter().any(|item| match item {
+                Item::Unknown(_) => true,
+                Item::Noun(phrase) => person(phrase) || phrase.pronoun.is_some(),
+                item => of_person(item),
+            });
+        let idle = |item: &Item| match item {
+            Item::Unknown(words) => is_clause || !self.is_word(sentence.said(words)),
+            Item::Noun(phrase) => {
+                let bare = phrase.noun.restrictions.is_empty() && phrase.noun.filters.is_empty();
+                let thing = bare && knowledge.is_anything(&phrase.noun.head);
+                person(phrase) || is_clause && (thing || phrase.pronoun.is_some() && leads)
+            }
+            Item::Place { nouns, .. } => nouns.iter().all(person),
+            Item::Value(_) => leads && is_clause,
+            Item::Link(_) => is_clause,
+            Item::Mark(Mark::What | Mark::Who) => or,
+            Item::Mark(mark) => {
+                is_clause && !mark.asks() || matches!(mark, Mark::Filler | Mark::But | Mark::And)
+            }
+            _ => false,
+        };
+        (is_clause || leads && keys.len() <= MOST) && items.iter().all(idle)
+    }
+}
+
+/// How many of the words of a clause, at its beginning, join it to another.
+fn joined(keys: &[String]) -> usize {
+    JOINS.iter().filter_map(|phrase| phrase_at(keys, 0, phrase)).max().unwrap_or_default()
+}
+
+/// The clauses of a line: parted by marks, and by joints within.
+fn clauses(text: &str) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    for (from, to) in parts(text) {
+        let part = &text[from..to];
+        let (words, keys) = (word_ranges(part), word_keys(part));
+        let joint = |n: &usize| JOINS.iter().any(|phrase| phrase_at(&keys, *n, phrase).is_some());
+        let mut begin = from;
+        for n in (1..keys.len()).filter(joint) {
+            if begin < from + words[n].start && !joint(&(n - 1)) {
+                found.push(begin..from + words[n - 1].end);
+                begin = from + words[n].start;
+            }
+        }
+        found.push(begin..to);
+    }
+    found
+}
+
+/// The clauses of a line that may bound it: what marks part, and within that what stands before the word that asks, or
+/// behind one that begins a bound.
+fn candidates(text: &str) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let parts = parts(text);
+    for (n, (from, to)) in parts.iter().copied().enumerate() {
+        let part = &text[from..to];
+        let (words, keys) = (word_ranges(part), word_keys(part));
+        found.push(from..to);
+        // "Suppose, …"
+        let alone = BOUNDS.contains(&keys.join(" ").as_str());
+        found.extend(parts.get(n + 1).filter(|_| alone).map(|(_, next)| from..*next));
+        let asks =
+            |n: &usize| vocabulary::longest(&keys[*n..]).is_some_and(|(_, mark)| mark.asks());
+        let asks = (2..keys.len()).find(asks);
+        found.extend(asks.map(|n| from..from + words[n - 1].end));
+        let begins = |n: &usize| BOUNDS.iter().any(|phrase| phrase_at(&keys, *n, phrase).is_some());
+        found.extend((1..keys.len()).filter(begins).map(|n| from + words[n].start..to));
+    }
+    found
+}
+
+/// A line without one of its clauses; the mark of a question stays.
+fn without(text: &str, clause: &Range<usize>) -> String {
+    const MARKS: [char; 9] = [',', ';', ':', '.', '!', '…', '–', '—', ' '];
+    let before = text[..clause.start].trim_end_matches([',', ';', ':', '–', '—', ' ']);
+    let behind = text[clause.end..].trim_start_matches(MARKS);
+    let asks = text[clause.clone()].ends_with('?') && behind.is_empty();
+    let joined = if before.is_empty() || behind.is_empty() { "" } else { " " };
+    format!("{before}{joined}{behind}{}", if asks { "?" } else { "" })
+}
+
+/// The same by their text.
+pub(super) fn parts_of(text: &str) -> impl Iterator<Item = &str> {
+    parts(text).into_iter().map(move |(from, to)| &text[from..to])
+}
+
+/// The parts of a line between its marks, by their bytes.
+pub(super) fn parts(text: &str) -> Vec<(usize, usize)> {
+    let mut parts = Vec::new();
+    let mut from = 0;
+    let ends = text.char_indices().filter(|(at, c)| {
+        // "Quick one: …", but "10:30"
+        let ends = *c == ':' && text[at + 1..].starts_with(' ');
+        ends || matches!(c, ',' | ';' | '.' | '!' | '?' | '…' | '–' | '—')
+    });
+    let ends = ends.map(|(at, mark)| (at, at + mark.len_utf8())).chain([(text.len(), text.len())]);
+    for (end, next) in ends {
+        let part = &text[from..end];
+        let lead = part.len() - part.trim_start().len();
+        if !part.trim().is_empty() {
+            let closes = text[end..next].trim().starts_with('?');
+            parts.push((from + lead, if closes { next } else { from + part.trim_end().len() }));
+        }
+        from = next;
+    }
+    parts
+}
+
+/// Words between who says something and what is said.
+pub(super) static JOINTS: Set = Set::named("JoinsReport");
+
+/// A part without the joint that begins it.
+pub(super) fn behind_joint(part: &str) -> &str {
+    let keys = word_keys(part);
+    match (keys.first(), word_ranges(part).get(1)) {
+        (Some(first), Some(second)) if JOINTS.contains(&first.as_str()) => &part[second.start..],
+        _ => part,
+    }
+}
+
+/// Whether words end by telling that somebody says or thinks what follows: «муж говорит, что», "my wife reckons".
+pub(super) fn is_reported(keys: &[String]) -> bool {
+    static SAYING: Set = Set::named("Saying");
+    static STEMS: Set = Set::named("SayingStem");
+    static KNOWING: Set = Set::named("Knowing");
+    let joints = keys.iter().rev().take_while(|key| JOINTS.contains(&key.as_str())).count();
+    let (before, joined) = keys.split_at(keys.len() - joints);
+    let Some(last) = before.last() else { return false };
+    let whether = joined.iter().any(|key| key == "if" || key == "whether");
+    let says = SAYING.contains(&last.as_str()) || STEMS.iter().any(|stem| last.starts_with(stem));
+    let confirms = set!("Confirm").contains(&last.as_str());
+    match whether {
+        true => says || KNOWING.contains(&last.as_str()),
+        false => says || confirms && !joined.is_empty(),
+    }
+}
