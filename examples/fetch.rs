@@ -5,8 +5,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use orthoframe::Engine;
 use orthoframe::engine::{Dialogue, Method, change_now};
+use orthoframe::{Engine, Language};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let dir = tempfile::tempdir()?;
@@ -19,7 +19,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("{} {relation} {}", fact[0], fact[1]);
     }
     let way = engine.route("Точка-А", "Комната-Y", Method::Shortest)?;
-    println!("{:.1} м", way.route?.length / 100.0);
+    match &way.route {
+        Ok(route) => println!("{:.1} м", route.length / 100.0),
+        Err(_) => println!(
+            "{}",
+            way.no_way_in_words(engine.world()?, Language::Russian).unwrap_or_default()
+        ),
+    }
 
     let mut dialogue = Dialogue::default();
     for line in ["Где лекарство?", "Принеси его", "What did you do?"] {

@@ -19,7 +19,7 @@ fn answered(engine: &Engine, question: &str, memory: &mut Memory) -> Option<Stri
 }
 
 /// The questions of a golden case that begin a dialogue.
-pub fn golden(case: &str) -> Vec<String> {
+pub(crate) fn golden(case: &str) -> Vec<String> {
     let questions = project("tests/golden/talk").join(case).join("questions.txt");
     let lines = std::fs::read_to_string(questions).unwrap();
     let lines =

@@ -38,7 +38,7 @@ fn the_seen_floor_is_free_floor_and_its_faces_are_those_of_the_map() {
                 sight.beam(at, direction, 3000.0).distance + noise
             })
             .collect();
-        let named_as = |blocker: orthoframe_geometry::Blocker| blocker.name(&world);
+        let named_as = |blocker: orthoframe_geometry::Blocker| format!("{blocker:?}");
         let shown = Operative::of(&sensor, &ranges, &pose, &world.robot, &chart, &named_as)
             .expect("floor is seen");
         seen += 1;
