@@ -208,22 +208,26 @@ fn every_line_puts_a_sentence_that_is_read() {
                 continue;
             };
             let fillings = if path.starts_with("ru") { RUSSIAN } else { ENGLISH };
+            // Some ask of what was told before, of one thing or of several.
+            let firsts = match path.starts_with("ru") {
+                true => ["Где Шкаф-1?", "Где шкафы?"],
+                false => ["Where is Wardrobe 1?", "Where are the wardrobes?"],
+            };
             let is_read = fillings.iter().any(|fill| {
                 [false, true].into_iter().any(|last| {
                     let mut sentence = Said { line: said, fill, last }.sentence(&sets);
                     if said.split_once(" =").is_some_and(|(said, _)| said.ends_with('…')) {
                         sentence = format!("{} {}?", sentence.trim_end_matches('?'), fill[0]);
                     }
-                    // Some ask of what was told before.
-                    let mut memory = Memory::default();
-                    let first = if path.starts_with("ru") {
-                        "Где Шкаф-1?"
-                    } else {
-                        "Where is Wardrobe 1?"
-                    };
-                    let _ = engine.ask(first, &mut memory).expect("there is a map");
-                    let answer = engine.ask(&sentence, &mut memory).expect("there is a map");
-                    !matches!(answer, Err(Unanswered { doubt: Doubt::NotUnderstood { .. }, .. }))
+                    firsts.iter().any(|first| {
+                        let mut memory = Memory::default();
+                        let _ = engine.ask(first, &mut memory).expect("there is a map");
+                        let answer = engine.ask(&sentence, &mut memory).expect("there is a map");
+                        !matches!(
+                            answer,
+                            Err(Unanswered { doubt: Doubt::NotUnderstood { .. }, .. })
+                        )
+                    })
                 })
             });
             if is_read {

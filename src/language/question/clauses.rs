@@ -7,10 +7,11 @@ use std::ops::Range;
 use super::grammar::{Item, Phrase, Sentence};
 use super::mark::Mark;
 use super::orders::hinges;
+use super::salvage::goes_on;
 use super::told_aside::is_polite;
-use super::{Answer, Asker, Memory, opening, several, vocabulary};
+use super::{Answer, Asker, Memory, opening, premise, several, vocabulary};
 use crate::sets::{Set, set};
-use crate::words::{may_be_predicate, phrase_at, word_keys, word_ranges};
+use crate::words::{Language, may_be_predicate, phrase_at, word_keys, word_ranges};
 
 /// What begins a condition, a time, or what is left out.
 static BOUNDS: Set = Set::named("BoundsClause");
@@ -75,6 +76,49 @@ impl Asker<'_> {
         };
         let unknown = items.iter().any(|item| matches!(item, Item::Unknown(_)));
         (begins || governed && unknown) && !items.iter().any(says)
+    }
+
+    /// The answer to a line without its idle clauses; else to what stands behind a mark of it and asks by itself, where nothing
+    /// before that bounds or narrows it: «Слушай, я бегом, где чашки?»
+    pub(super) fn beside_asides(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Answer> {
+        let mut after = memory.clone();
+        if let Some(rest) = self.without_idle(text)
+            && let Ok(answer) = self.ask(&rest, &mut after)
+        {
+            *memory = after;
+            return Some(answer.understood_as(&rest, language));
+        }
+        parts(text).into_iter().skip(1).find_map(|(from, _)| {
+            let (told, asked) = (&text[..from], &text[from..]);
+            let keys = word_keys(asked);
+            let stands = keys.len() > 1
+                && opening::begins_question(&keys)
+                && !set!("Than").contains(&keys[0].as_str())
+                && !several::asks_in(told)
+                && !is_reported(&word_keys(told))
+                && !parts_of(told).any(|part| self.bounds(part) || tells_how_much(self, part))
+                && !self.narrows(told, asked)
+                && !goes_on(told, asked)
+                && !(premise::says_here(asked) && self.tells_of_place(told));
+            let mut after = memory.clone();
+            if !stands {
+                return None;
+            }
+            self.hear_of(told, &mut after);
+            if self.is_astray(told) {
+                Self::lose_person(told, &mut after);
+            }
+            let answer = self.ask(asked, &mut after).ok()?;
+            let answer = self.heeding(&[told], answer, &after).ok()?;
+            after.learn(&answer);
+            *memory = after;
+            Some(answer.understood_as(asked, language))
+        })
     }
 
     /// A line without its clauses that name nothing of the map and bound nothing: «Муж уехал в командировку, где …?», "Where,
@@ -161,6 +205,8 @@ impl Asker<'_> {
         let of_person = |item: &Item| match item {
             Item::Mark(mark) => matches!(mark, Mark::Me | Mark::You),
             Item::Noun(phrase) => person(phrase),
+            // «У меня посылка»
+            Item::Place { nouns, .. } => nouns.iter().all(person),
             _ => false,
         };
         let says = |item: &Item| match item {
@@ -195,6 +241,13 @@ impl Asker<'_> {
         };
         (is_clause || leads && keys.len() <= MOST) && items.iter().all(idle)
     }
+}
+
+/// «Расскажи кратко, …»: how much is asked for.
+fn tells_how_much(asker: &Asker<'_>, text: &str) -> bool {
+    let plain = asker.plain(text);
+    let items = Sentence::new(&plain, &asker.mind.lexicon).items();
+    items.iter().any(|item| matches!(item, Item::Mark(Mark::Detail(_))))
 }
 
 /// How many of the words of a clause, at its beginning, join it to another.

@@ -366,13 +366,9 @@ impl Asker<'_> {
                 Doubt::NotUnderstood { .. } | Doubt::Unknown { .. } | Doubt::NoReferent { .. }
             )
             && !is_noted
-            && let Some(rest) = self.without_idle(text)
+            && let Some(answer) = self.beside_asides(text, language, memory)
         {
-            let mut after = memory.clone();
-            if let Ok(answer) = self.ask(&rest, &mut after) {
-                *memory = after;
-                return Ok(answer.understood_as(&rest, language));
-            }
+            return Ok(answer);
         }
         let outcome = outcome.or_else(|unanswered| {
             if is_noted {
