@@ -26,7 +26,7 @@ impl std::str::FromStr for When {
             return Ok(Self::Revision(number));
         }
         let moment = text.parse::<Timestamp>().map(Self::Moment);
-        moment.map_err(|_| said!("neither-number-nor-time", text))
+        moment.map_err(|_unread| said!("neither-number-nor-time", text))
     }
 }
 

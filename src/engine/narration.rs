@@ -360,7 +360,7 @@ fn unfinished(
             let stopped = told!(language, "stopped");
             match &answer.reported {
                 Some(position) => format!("{stopped} {}", position.say(language)),
-                None => stopped.to_owned(),
+                None => stopped,
             }
         }
         TaskEnding::Failed(failure) => {

@@ -259,7 +259,7 @@ impl State {
                 return Ok(Some(answer(Said::Found, &ids, number, format!("{}.", ids.len()))));
             }
             return Ok(Some(match ids.is_empty() {
-                true => answer(Said::Nothing, &ids, None, none.to_owned()),
+                true => answer(Said::Nothing, &ids, None, none),
                 false => answer(Said::Found, &ids, None, told(&ids)),
             }));
         }
@@ -267,7 +267,7 @@ impl State {
             let ids = of(&|zone| zone.kind.is_shut() && known.is_in_force(zone));
             let nowhere = told!(language, "no-zone-now");
             return Ok(Some(match ids.is_empty() {
-                true => answer(Said::Nothing, &ids, None, nowhere.to_owned()),
+                true => answer(Said::Nothing, &ids, None, nowhere),
                 false => answer(Said::Found, &ids, None, told(&ids)),
             }));
         }

@@ -99,12 +99,12 @@ impl Reason {
                 };
                 let pairs: Vec<String> = pairs.iter().map(pair).collect();
                 let head = told!(language, "goals-exclude");
-                head.to_owned() + &pairs.join(language.pick("; ", "; that "))
+                head + &pairs.join(language.pick("; ", "; that "))
             }
             Self::Together(facts) => {
                 let head = told!(language, "goals-out-of-reach");
                 let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
-                head.to_owned() + &facts.join(language.pick(", ", ", that "))
+                head + &facts.join(language.pick(", ", ", that "))
             }
             Self::NoWay(actions) => {
                 let head = told!(language, "floor-has-no-way");
@@ -115,7 +115,7 @@ impl Reason {
                     None => wording.action(&refused.action),
                 };
                 let actions: Vec<String> = actions.iter().map(action).collect();
-                head.to_owned() + &actions.join(language.pick(", ", "; "))
+                head + &actions.join(language.pick(", ", "; "))
             }
             Self::Limit { limit, at_least, at_most: None, tried } => {
                 let ended = match limit {
@@ -126,7 +126,7 @@ impl Reason {
                     Limit::Effort => told!(language, "no-plan-in-effort"),
                 };
                 let known = match at_least {
-                    0 => ended.to_owned(),
+                    0 => ended,
                     least => told!(language, "proven-steps", ended, least),
                 };
                 let tried: Vec<String> =

@@ -62,7 +62,12 @@ impl Asker<'_> {
         let plain = self.plain(clause);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let items = sentence.items();
-        let governed = matches!(items.first(), Some(Item::Link(_) | Item::Place { .. }));
+        // «У меня вопрос» is a clause.
+        let governed = match items.first() {
+            Some(Item::Link(_)) => true,
+            Some(Item::Place { nouns, .. }) => !nouns.iter().all(is_person),
+            _ => false,
+        };
         let says = |item: &Item| match item {
             Item::Mark(mark) => matches!(
                 mark,
@@ -102,6 +107,7 @@ impl Asker<'_> {
                 && !several::asks_in(told)
                 && !is_reported(&word_keys(told))
                 && !parts_of(told).any(|part| self.bounds(part) || tells_how_much(self, part))
+                && !parts_of(told).any(|part| self.premise(part).is_some())
                 && !self.narrows(told, asked)
                 && !goes_on(told, asked)
                 && !(premise::says_here(asked) && self.tells_of_place(told));
@@ -201,12 +207,11 @@ impl Asker<'_> {
         let items = sentence.items();
         let memory = Memory::default();
         let knowledge = self.knowledge(sentence.language, &memory);
-        let person = |phrase: &Phrase| phrase.person.is_some_and(|mark| mark != Mark::There);
         let of_person = |item: &Item| match item {
             Item::Mark(mark) => matches!(mark, Mark::Me | Mark::You),
-            Item::Noun(phrase) => person(phrase),
+            Item::Noun(phrase) => is_person(phrase),
             // «У меня посылка»
-            Item::Place { nouns, .. } => nouns.iter().all(person),
+            Item::Place { nouns, .. } => nouns.iter().all(is_person),
             _ => false,
         };
         let says = |item: &Item| match item {
@@ -214,13 +219,13 @@ impl Asker<'_> {
             Item::Unknown(words) => {
                 sentence.keys[words.clone()].iter().any(|key| may_be_predicate(key))
             }
-            Item::Noun(phrase) => person(phrase) || phrase.pronoun.is_some(),
+            Item::Noun(phrase) => is_person(phrase) || phrase.pronoun.is_some(),
             item => of_person(item),
         };
         let is_clause = items.iter().any(says)
             && items.iter().any(|item| match item {
                 Item::Unknown(_) => true,
-                Item::Noun(phrase) => person(phrase) || phrase.pronoun.is_some(),
+                Item::Noun(phrase) => is_person(phrase) || phrase.pronoun.is_some(),
                 item => of_person(item),
             });
         let idle = |item: &Item| match item {
@@ -228,9 +233,9 @@ impl Asker<'_> {
             Item::Noun(phrase) => {
                 let bare = phrase.noun.restrictions.is_empty() && phrase.noun.filters.is_empty();
                 let thing = bare && knowledge.is_anything(&phrase.noun.head);
-                person(phrase) || is_clause && (thing || phrase.pronoun.is_some() && leads)
+                is_person(phrase) || is_clause && (thing || phrase.pronoun.is_some() && leads)
             }
-            Item::Place { nouns, .. } => nouns.iter().all(person),
+            Item::Place { nouns, .. } => nouns.iter().all(is_person),
             Item::Value(_) => leads && is_clause,
             Item::Link(_) => is_clause,
             Item::Mark(Mark::What | Mark::Who) => or,
@@ -241,6 +246,11 @@ impl Asker<'_> {
         };
         (is_clause || leads && keys.len() <= MOST) && items.iter().all(idle)
     }
+}
+
+/// "I", «вас»
+fn is_person(phrase: &Phrase) -> bool {
+    phrase.person.is_some_and(|mark| mark != Mark::There)
 }
 
 /// «Расскажи кратко, …»: how much is asked for.

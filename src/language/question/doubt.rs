@@ -142,7 +142,7 @@ pub struct Unanswered {
     pub language: Language,
     pub text: String,
     /// Names of the candidates, or of what is like the name that is not on the map.
-    pub names: Vec<String>,
+    pub names: Box<[String]>,
     /// Questions that come near to what was not understood, and have an answer.
-    pub offers: Vec<String>,
+    pub offers: Box<[String]>,
 }

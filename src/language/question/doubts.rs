@@ -30,17 +30,16 @@ impl Unanswered {
         // What names nothing of an aside is a word, and may be there for all that.
         let text = match &self.doubt {
             Doubt::Unknown { reference, .. } => {
-                let lead = self.language.pick("Я не понимаю", "I do not understand");
-                format!(
-                    "{lead} {}.",
-                    self.language
-                        .pick(format!("«{}»", tidy(reference)), format!("“{}”", tidy(reference)))
+                let word = tidy(reference);
+                self.language.pick(
+                    format!("Я не понимаю «{word}»."),
+                    format!("I do not understand “{word}”."),
                 )
             }
             _ => self.text.clone(),
         };
         let offer = self.language.pick("Может быть, вы спрашиваете:", "Do you ask:");
-        Self { text: format!("{text} {offer} {asked}"), offers, ..self }
+        Self { text: format!("{text} {offer} {asked}"), offers: offers.into(), ..self }
     }
 
     /// Of a condition that is neither so nor not so by its answer: the map does not tell it, or a denial in it is not understood.
@@ -58,8 +57,8 @@ impl Unanswered {
             doubt: Doubt::not_understood(question),
             language,
             text,
-            names: Vec::new(),
-            offers: Vec::new(),
+            names: Box::default(),
+            offers: Box::default(),
         }
     }
 
@@ -75,8 +74,8 @@ impl Unanswered {
             doubt: Doubt::not_understood(order),
             language,
             text,
-            names: Vec::new(),
-            offers: Vec::new(),
+            names: Box::default(),
+            offers: Box::default(),
         }
     }
 
@@ -92,8 +91,8 @@ impl Unanswered {
             doubt: Doubt::not_understood(said),
             language,
             text,
-            names: Vec::new(),
-            offers: Vec::new(),
+            names: Box::default(),
+            offers: Box::default(),
         }
     }
 
@@ -124,8 +123,8 @@ impl Knowledge<'_> {
             doubt,
             language: self.language,
             text: speech::sentence(&text),
-            names,
-            offers: Vec::new(),
+            names: names.into(),
+            offers: Box::default(),
         }
     }
 

@@ -438,6 +438,13 @@ impl Lexicon {
             let own = self.push(extension, russian[0].clone(), &english[0]);
             // "thing to tell the time by" is what such things are counted by, and makes no word of it known.
             let spoken = sort.is_spoken();
+            // A kind of the map that is called as its sort is covers it: «картины» are photographs, too.
+            let words = (sort.russian.iter().map(|word| (true, word)))
+                .chain(sort.english.iter().map(|word| (false, word)));
+            for (is_russian, word) in words.filter(|(_, word)| sort.members.contains(word)) {
+                let covered = self.narrower.entry((is_russian, name_key(word))).or_default();
+                covered.extend(members.iter().copied());
+            }
             for phrase in russian.into_iter().filter(|_| spoken) {
                 if self.nouns.find(phrase.name()).is_empty() {
                     let id = self.push(extension, phrase.clone(), &english[0]);
@@ -509,7 +516,8 @@ impl Lexicon {
             Language::English => (false, name_key(&kind.english)),
         };
         let mut kinds = vec![id];
-        kinds.extend(self.narrower.get(&key).into_iter().flatten());
+        let narrower = self.narrower.get(&key).into_iter().flatten();
+        kinds.extend(narrower.filter(|other| **other != id));
         kinds
     }
 

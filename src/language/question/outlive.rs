@@ -95,7 +95,7 @@ impl Memory {
 fn unanswered(departed: &[Departed], language: Language) -> Unanswered {
     let doubt = Doubt::Departed { things: departed.to_vec() };
     let text = speech::sentence(&departed_words(departed, language));
-    Unanswered { doubt, language, text, names: Vec::new(), offers: Vec::new() }
+    Unanswered { doubt, language, text, names: Box::default(), offers: Box::default() }
 }
 
 impl Answer {

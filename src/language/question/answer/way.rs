@@ -235,7 +235,7 @@ impl Knowledge<'_> {
         let from_there = |way: &f64| straight.is_none_or(|straight| *way + 1.0 >= straight);
         let way = way.filter(|way| rooms || !goes(start) || !goes(to) || from_there(way));
         let straight = straight.filter(|_| !rooms || way.is_none());
-        let edges = self.from_what(start, to);
+        let edges = self.between_what(start, to);
         let (a, b) = (self.form(start, Case::Genitive), self.form(to, Case::Genitive));
         let until = russian::preposition(russian::Preposition::Do, &b);
         let of = russian::preposition(russian::Preposition::Ot, &a);

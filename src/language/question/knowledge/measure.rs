@@ -111,7 +111,7 @@ impl Knowledge<'_> {
     }
 
     /// Between what of two things [`Self::distance`] is measured.
-    pub(in crate::question) fn from_what(&self, a: Thing, b: Thing) -> &'static str {
+    pub(in crate::question) fn between_what(&self, a: Thing, b: Thing) -> &'static str {
         let has_edge = |t: Thing| t.replica().is_some();
         let is_opening = |t: Thing| matches!(t, Thing::Window(_)) || self.opening(t).is_some();
         let of_middle = |t: Thing| t.area().is_some() || is_opening(t);
