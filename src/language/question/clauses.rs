@@ -7,7 +7,6 @@ use std::ops::Range;
 use super::grammar::{Item, Phrase, Sentence};
 use super::mark::Mark;
 use super::orders::hinges;
-use super::salvage::goes_on;
 use super::told_aside::is_polite;
 use super::{Answer, Asker, Memory, opening, premise, several, vocabulary};
 use crate::sets::{Set, set};
@@ -369,5 +368,24 @@ pub(super) fn is_reported(keys: &[String]) -> bool {
     match whether {
         true => says || KNOWING.contains(&last.as_str()),
         false => says || confirms && !joined.is_empty(),
+    }
+}
+
+/// Whether a part of a line is a clause of what stands before it: «ту, что на кухне», "bigger, than …".
+pub(super) fn goes_on(before: &str, part: &str) -> bool {
+    static POINTING: Set = Set::named("PointingOne");
+    let (keys, told) = (word_keys(part), word_keys(before));
+    match keys.first().map(String::as_str) {
+        Some("чем" | "than") => (0..told.len()).any(|n| {
+            matches!(vocabulary::longest(&told[n..]), Some((_, Mark::More(_) | Mark::Nearer(_))))
+        }),
+        // "which" and «где» behind a word that points tell which one is meant.
+        Some("что" | "which" | "that" | "где" | "where") => {
+            // «Устал я что-то, где …?»: a particle points at nothing.
+            let particle = before.trim_end_matches([',', ' ']).ends_with("-то");
+            !particle && told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
+        }
+        Some(first) => first.starts_with("котор") && !told.is_empty(),
+        None => false,
     }
 }

@@ -3,14 +3,14 @@
 //! Invariant: what is left aside limits nothing, asks nothing, and tells no number, no value and no place but the person's;
 //! a thing that it names is spoken of; and what was understood is said with the answer.
 
-use super::clauses::{JOINTS, behind_joint, is_reported, parts, parts_of};
+use super::clauses::{JOINTS, behind_joint, goes_on, is_reported, parts, parts_of};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::told_aside::{Named, is_polite, is_wish, only_begs, tells};
 use super::{
     Asker, Doubt, Memory, Noun, Outcome, Query, Said, opening, premise, several, vocabulary,
 };
-use crate::sets::{Set, set};
+use crate::sets::set;
 use crate::units::InOrder as _;
 use crate::words::{Language, word_keys, word_ranges};
 
@@ -353,24 +353,5 @@ fn tells_me(keys: &[String]) -> bool {
                 || set!("TellStemOrLook").iter().any(|verb| first.starts_with(verb))
         }
         _ => false,
-    }
-}
-
-/// Whether a part of a line is a clause of what stands before it: «ту, что на кухне», "bigger, than …".
-pub(super) fn goes_on(before: &str, part: &str) -> bool {
-    static POINTING: Set = Set::named("PointingOne");
-    let (keys, told) = (word_keys(part), word_keys(before));
-    match keys.first().map(String::as_str) {
-        Some("чем" | "than") => (0..told.len()).any(|n| {
-            matches!(vocabulary::longest(&told[n..]), Some((_, Mark::More(_) | Mark::Nearer(_))))
-        }),
-        // "which" and «где» behind a word that points tell which one is meant.
-        Some("что" | "which" | "that" | "где" | "where") => {
-            // «Устал я что-то, где …?»: a particle points at nothing.
-            let particle = before.trim_end_matches([',', ' ']).ends_with("-то");
-            !particle && told.last().is_some_and(|last| POINTING.contains(&last.as_str()))
-        }
-        Some(first) => first.starts_with("котор") && !told.is_empty(),
-        None => false,
     }
 }
