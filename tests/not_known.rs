@@ -104,3 +104,31 @@ fn a_price_is_no_count() {
         }
     }
 }
+
+/// "Why isn't the mug clean?", of which the map tells nothing, is not affirmed: "by the map it is so".
+#[test]
+fn what_is_denied_of_the_unknown_is_not_affirmed() {
+    let mut unknown = 0;
+    for map in MAPS {
+        let Some(engine) = engine(map) else { continue };
+        let world = engine.world().unwrap();
+        for replica in world.replicas.values().step_by(3) {
+            let name = named(world, Entity::Replica(replica.id)).english().to_owned();
+            for value in ["clean", "red", "switched on", "wooden"] {
+                let asked = engine.ask(&format!("Is {name} {value}?"), &mut Memory::default());
+                let Ok(plain) = asked.unwrap() else { continue };
+                let why = engine.ask(&format!("Why isn't {name} {value}?"), &mut Memory::default());
+                let Ok(why) = why.unwrap() else { continue };
+                if plain.said == Said::Unknown {
+                    assert!(
+                        !why.text.starts_with("By the map it is so"),
+                        "{name} {value}: {}",
+                        why.text
+                    );
+                    unknown += 1;
+                }
+            }
+        }
+    }
+    assert!(unknown > 20, "{unknown}");
+}

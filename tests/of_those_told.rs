@@ -540,3 +540,44 @@ fn what_points_with_a_clause_asks_the_same_of_what_is_there() {
     }
     assert!(met > 5 && refused > 10, "{met} {refused}");
 }
+
+/// "How far is it from one to the other?" of two that were told is how far the two are apart, or is not understood.
+#[test]
+fn from_one_to_the_other_is_between_the_two() {
+    let mut measured = 0;
+    for engine in maps() {
+        let world = engine.world().unwrap();
+        for (russian, name) in carried(&engine).into_keys() {
+            let plural = NounPhrase::parse(&russian, &WordHints::default())
+                .form(Case::Nominative, Number::Plural);
+            let english = format!("Where are the {}?", english::plural(&name));
+            let lines = [
+                (english, "How far is it from one to the other?"),
+                (format!("Где {plural}?"), "Сколько от одной до другой?"),
+            ];
+            for (opening, line) in lines {
+                let mut memory = Memory::default();
+                let Some(all) = told(&engine, &[&opening], &mut memory) else { continue };
+                let [Thing::Entity(one), Thing::Entity(other)] = all.things[..] else { continue };
+                let Some(apart) = told(&engine, &[line], &mut memory) else { continue };
+                let named = match opening.is_ascii() {
+                    true => format!(
+                        "How far is it from {} to {}?",
+                        english_name(world, one),
+                        english_name(world, other)
+                    ),
+                    false => {
+                        format!("Расстояние между {} и {}", world.name(one), world.name(other))
+                    }
+                };
+                let plain = told(&engine, &[&named], &mut Memory::default());
+                assert!(apart.number.is_some_and(|cm| cm > 0.0), "{opening} {line} {}", apart.text);
+                if let Some(plain) = plain.filter(|_| opening.is_ascii()) {
+                    assert_eq!(apart.number, plain.number, "{opening} {line} {}", apart.text);
+                    measured += 1;
+                }
+            }
+        }
+    }
+    assert!(measured > 0, "nothing was measured");
+}

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::fault::{LangError, LangFault, LangFaults};
 use super::features::Features;
 use super::file::{self, Element, ElementKind, Expr, Left, Name, Repeat, Rule, Statement, Word};
+use super::forms::{check_forms, forms_of};
 use super::grammar::{
     Category, Entry, Frame, Grammar, OF_THE_MAP, Overload, Phrase, Role, Slot, Tongue,
 };
@@ -15,7 +16,6 @@ use super::sense::{Function, Meaning, Type};
 use super::term::{Dimension, RoleId, Sorts};
 use crate::language::paraphrase::Paraphrases;
 use crate::language::question::Property;
-use crate::language::{Case, Evidence, Language, NounPhrase, Number, Readings, WordHints, english};
 use crate::units::{Source, nearest_name};
 
 /// The sentences that a language must have, and the parts that they may name.
@@ -659,47 +659,4 @@ fn place_of(element: &Element) -> std::ops::Range<usize> {
         ElementKind::Words(choices) => choices[0][0].name.at.clone(),
         ElementKind::Part { category, .. } => category.at.clone(),
     }
-}
-
-/// Whether a word that stands for all its forms has forms that are known and not guessed by its ending.
-fn check_forms(word: &Word) -> Checked<()> {
-    let text = &word.name.text;
-    let is_guessed = word.declines
-        && Language::of(text) == Language::Russian
-        && Features::of_adjective(text).is_empty()
-        && NounPhrase::parse(text, &WordHints::default()).evidence() == Evidence::Guess;
-    if is_guessed {
-        return Err(LangError::Forms { word: text.clone(), at: word.name.at.clone().into() });
-    }
-    Ok(())
-}
-
-/// The forms that a word of a file stands for, with what each may be.
-fn forms_of(word: &Word) -> Vec<(String, Features)> {
-    let key = |form: &str| crate::units::name_key(form);
-    if !word.declines {
-        return vec![(word.name.text.clone(), word.features)];
-    }
-    let forms = match Features::of_adjective(&word.name.text) {
-        adjective if !adjective.is_empty() => adjective,
-        _ if Language::of(&word.name.text) == Language::English => {
-            let plural = english::plural(&word.name.text);
-            let of = |number| {
-                let all =
-                    Case::ALL.map(|case| Features::of_noun(Readings::one(number, case), None));
-                all.into_iter().fold(Features::NONE, Features::or)
-            };
-            vec![(word.name.text.clone(), of(Number::Singular)), (plural, of(Number::Plural))]
-        }
-        _ => {
-            let phrase = NounPhrase::parse(&word.name.text, &WordHints::default());
-            let of = |number, case| {
-                Features::of_noun(Readings::one(number, case), Some(phrase.gender()))
-            };
-            let all = phrase.all_forms().into_iter();
-            all.map(|(number, case, form)| (form, of(number, case))).collect()
-        }
-    };
-    let kept = forms.into_iter().map(|(form, features)| (key(&form), features & word.features));
-    kept.filter(|(_, features)| !features.is_empty()).collect()
 }

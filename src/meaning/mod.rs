@@ -29,6 +29,7 @@ mod declared;
 mod fault;
 mod features;
 mod file;
+mod forms;
 mod grammar;
 mod near;
 mod outcome;

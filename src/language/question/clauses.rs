@@ -26,16 +26,16 @@ impl Asker<'_> {
         answer: &Answer,
         before: &Memory,
     ) -> Option<&'t str> {
-        let mut bounds = candidates(text).into_iter().filter(|at| self.bounds(&text[at.clone()]));
-        bounds
-            .find(|at| {
-                let rest = without(text, at);
-                !word_keys(&rest).is_empty()
-                    && self
-                        .heard(&rest, &mut before.clone())
-                        .is_ok_and(|plain| plain.query == answer.query)
-            })
-            .map(|at| &text[at])
+        let is_unheeded = |at: &Range<usize>| {
+            let rest = without(text, at);
+            // Most lines are one clause, of which nothing is left without it.
+            !word_keys(&rest).is_empty()
+                && self.bounds(&text[at.clone()])
+                && self
+                    .heard(&rest, &mut before.clone())
+                    .is_ok_and(|plain| plain.query == answer.query)
+        };
+        candidates(text).into_iter().find(is_unheeded).map(|at| &text[at])
     }
 
     /// Whether a clause tells under which condition, when, or of what alone it is asked.
@@ -105,7 +105,7 @@ impl Asker<'_> {
                 && !set!("Than").contains(&keys[0].as_str())
                 && !several::asks_in(told)
                 && !is_reported(&word_keys(told))
-                && !parts_of(told).any(|part| self.bounds(part) || tells_how_much(self, part))
+                && !parts_of(told).any(|part| self.bounds(part) || self.tells_how_much(part))
                 && !parts_of(told).any(|part| self.premise(part).is_some())
                 && !self.narrows(told, asked)
                 && !goes_on(told, asked)
@@ -124,6 +124,13 @@ impl Asker<'_> {
             *memory = after;
             Some(answer.understood_as(asked, language))
         })
+    }
+
+    /// «Расскажи кратко, …»: how much is asked for.
+    fn tells_how_much(&self, text: &str) -> bool {
+        let plain = self.plain(text);
+        let items = Sentence::new(&plain, &self.mind.lexicon).items();
+        items.iter().any(|item| matches!(item, Item::Mark(Mark::Detail(_))))
     }
 
     /// A line without its clauses that name nothing of the map and bound nothing: «Муж уехал в командировку, где …?», "Where,
@@ -250,13 +257,6 @@ impl Asker<'_> {
 /// "I", «вас»
 fn is_person(phrase: &Phrase) -> bool {
     phrase.person.is_some_and(|mark| mark != Mark::There)
-}
-
-/// «Расскажи кратко, …»: how much is asked for.
-fn tells_how_much(asker: &Asker<'_>, text: &str) -> bool {
-    let plain = asker.plain(text);
-    let items = Sentence::new(&plain, &asker.mind.lexicon).items();
-    items.iter().any(|item| matches!(item, Item::Mark(Mark::Detail(_))))
 }
 
 /// How many of the words of a clause, at its beginning, join it to another.

@@ -76,8 +76,11 @@ impl Asker<'_> {
             let items = Sentence::new(text, &self.mind.lexicon).items();
             items.iter().any(|item| matches!(item, Item::Place { .. }))
         };
-        let claims = |text: &str| matches!(self.read(text, memory), Ok(Query::Holds { .. }));
-        Ok(named.filter(|named| !most && (!placed(named) || claims(named))))
+        // And so do ends between which is measured.
+        let asks = |text: &str| {
+            matches!(self.read(text, memory), Ok(Query::Holds { .. } | Query::Distance { .. }))
+        };
+        Ok(named.filter(|named| !most && (!placed(named) || asks(named))))
     }
 
     /// A sentence, an order where it does something, with the names of what numbers or "other" mean in it.

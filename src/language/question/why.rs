@@ -38,7 +38,8 @@ impl Knowledge<'_> {
                 if negated && leaves {
                     return Ok(self.why_not_though_so(&answer.text, &answer.topic, false));
                 }
-                if self.is_denied_rightly(query, negated) {
+                let is_told = answer.said != Said::Unknown;
+                if is_told && self.is_denied_rightly(query, negated) {
                     return Ok(self.why_plain(&answer.text, &answer.topic));
                 }
                 if negated && (is_otherwise(query, &answer) || self.is_though_denied(query))

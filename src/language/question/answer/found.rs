@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::map::Entity;
-use crate::question::knowledge::{Frame, Held, Knowledge};
+use crate::question::knowledge::{Frame, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Denial, Extreme, Head, Noun, Rel, Thing};
 use crate::question::{Doubt, Said};
@@ -231,7 +231,7 @@ impl Knowledge<'_> {
         })
     }
 
-    fn is_having(&self, noun: &Noun) -> bool {
+    pub(super) fn is_having(&self, noun: &Noun) -> bool {
         noun.restrictions.iter().any(|r| {
             matches!(r.rel, Rel::Has | Rel::Bears)
                 || (r.rel == Rel::Near
@@ -327,89 +327,13 @@ impl Knowledge<'_> {
         anchors.filter_map(|a| self.find(a, true).ok()).filter(|f| f.len() == 1).flatten().collect()
     }
 
-    fn frame_of(&self, noun: &Noun) -> String {
+    pub(super) fn frame_of(&self, noun: &Noun) -> String {
         let side = noun.restrictions.iter().find_map(|r| {
             let anchor = self.find(r.anchors.first()?, true).ok()?;
             let words = self.frame_words(r.rel, *anchor.first()?);
             (!words.is_empty()).then_some(words)
         });
         side.unwrap_or_default()
-    }
-
-    pub(super) fn nothing_found(&self, noun: &Noun, place: &str) -> String {
-        let frame = self.frame_of(noun);
-        let general = noun.head.anything && noun.filters.is_empty();
-        let but = noun.other || !noun.except.is_empty();
-        if !noun.also.is_empty() || noun.like.is_some() {
-            return format!("{place} {}", self.pick("таких нет", "there are none such"));
-        }
-        match (self.is_russian(), general) {
-            (true, true) if but => format!("{place}{frame} больше ничего нет"),
-            (false, true) if but => format!("there is nothing else {place}{frame}"),
-            (true, true) => format!("{place}{frame} ничего нет{}", self.nearest_instead(noun)),
-            (false, true) => {
-                format!("there is nothing {place}{frame}{}", self.nearest_instead(noun))
-            }
-            (true, false) if noun.other => {
-                format!("{place}{frame} больше нет {}", self.none_of(noun))
-            }
-            // "Which of them are open?"
-            (true, false) if noun.head.things.is_some() => format!("{place}{frame} таких нет"),
-            (false, false) if noun.head.things.is_some() => {
-                format!("none of them {place}{frame}").trim_end().to_owned()
-            }
-            (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
-            (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
-            (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
-            (false, false) if place.is_empty() && !noun.other => {
-                self.there_is_no(noun, "on the map")
-            }
-            (false, false) => self.there_is_no(noun, &format!("{place}{frame}")),
-        }
-    }
-
-    /// Where there are no doors, how many passages there are, which people may have meant as well.
-    fn passages_instead(&self, noun: &Noun) -> String {
-        let doors = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Doors;
-        let plain = noun.head.kinds.iter().any(doors) && noun.filters.is_empty();
-        let kinds = self.lexicon().kind_of(&Extension::Passages).into_iter().collect();
-        let passages = Noun { head: Head { kinds, ..Head::default() }, ..noun.clone() };
-        let open = plain.then(|| self.find(&passages, false).ok()).flatten().unwrap_or_default();
-        let counted = self.counted(&passages, open.len());
-        match (open.len(), self.is_russian()) {
-            (0, _) => String::new(),
-            (_, true) => format!(", но есть {counted}"),
-            (1, false) => format!(", but there is {counted}"),
-            (_, false) => format!(", but there are {counted}"),
-        }
-    }
-
-    /// Where nothing is right beside a thing, what stands nearest to it in its room.
-    fn nearest_instead(&self, noun: &Noun) -> String {
-        let Some((away, thing)) = self.nearest_beside(noun) else { return String::new() };
-        let (name, away) = (self.name(thing), length(away, self.language));
-        match self.is_russian() {
-            true => format!(", ближе всего {name} ({away})"),
-            false => format!("; the nearest is {name} ({away})"),
-        }
-    }
-
-    fn nearest_beside(&self, noun: &Noun) -> Option<(f64, Thing)> {
-        let [place] = &noun.restrictions[..] else { return None };
-        let [anchor] = self.anchor_things(noun)[..] else { return None };
-        let general = noun.head.anything && noun.filters.is_empty() && !noun.other;
-        if place.rel != Rel::NextTo || place.negated || !general {
-            return None;
-        }
-        let near = self.related(Rel::Near, anchor).into_iter();
-        let near = near.filter(|t| self.area_of(*t) == self.area_of(anchor));
-        let near = near.filter_map(|t| Some((self.distance(t, anchor)?, t)));
-        // What touches the thing lies on it or carries it.
-        let apart = self.relations.thresholds().touch_gap;
-        // A picture hangs over what stands under it, rather than beside it.
-        let hangs = |t: Thing| self.held_by_room(t) == Some(Held::OnWall);
-        let nearest = near.filter(|(away, t)| *away >= apart && (!hangs(*t) || hangs(anchor)));
-        nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
     /// A lift has an Area on every floor where it stops; people count it once. Rooms in general are counted as such.

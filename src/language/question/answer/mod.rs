@@ -7,6 +7,7 @@ mod found;
 mod kinds;
 mod leading;
 mod lifts;
+mod nothing;
 mod part;
 mod passing;
 mod place;
