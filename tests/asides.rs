@@ -80,7 +80,7 @@ fn around(aside: &str, question: &str) -> String {
 
 /// Every line of an aside around a question, with the question. The ordinary run takes some of them.
 fn lines(kind: &str, mut look: impl FnMut(&Engine, &str, &Asked, &str)) {
-    let most = if long() { 12 } else { 1 };
+    let most = if long() { 4 } else { 1 };
     for talk in TALKS {
         let map = project("tests/golden/talk").join(talk).join("map.txt");
         let map = std::fs::read_to_string(map).unwrap();

@@ -5,7 +5,7 @@
 use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
 use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
-use crate::map::{DoorStatus, Entity, LiftStop, World};
+use crate::map::{DoorStatus, Entity, LiftStop, Mark, World};
 use crate::units::{AreaId, DoorId, Lengths, ReplicaId, told, word};
 
 use super::RouteAnswer;
@@ -122,7 +122,12 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         };
         let mut names: Vec<String> = blockers.iter().map(name).collect();
         names.dedup();
-        enumerate(&names, language)
+        let list = enumerate(&names, language);
+        // What stands in the way by a size that nobody measured may stand beside it.
+        match blockers.iter().any(|b| of_usual_size(world, b)) {
+            true => told!(language, "by-usual-sizes", list),
+            false => list,
+        }
     };
     match barrier {
         Barrier::Door { door: id, status } => {
@@ -168,6 +173,13 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
             told!(language, "joined-by-nothing", rooms = enumerate(&rooms, language))
         }
     }
+}
+
+/// Whether a thing in the way has the usual size of its kind, which nobody measured.
+fn of_usual_size(world: &World, blocker: &Blocker) -> bool {
+    let Blocker::Replica { replica, .. } = blocker else { return false };
+    let object = world.replicas.get(replica).map(|replica| &world.objects[&replica.object]);
+    object.is_some_and(|object| Mark::UsualSize.of(&object.properties).is_some())
 }
 
 /// With what a word about it agrees.

@@ -285,6 +285,7 @@ too-narrow = { $what } is { $width } wide, the robot needs { $needed }
 too-low = { $of } is { $height } high, the robot { $needed }
 step-between = there is a step of { $rise } between { $pair }
 gap = a gap { $place } is { $width } wide, the robot needs { $needed } ({ $between })
+by-usual-sizes = { $list }, by the usual sizes of such things, not measured on site
 no-way-out = { $room } has no way out
 shut-off = { $place } the way is shut off by { $by }
 doorless = no door or passage leads from { $room } to another room

@@ -292,6 +292,7 @@ too-narrow = { $what } шириной { $width }, роботу нужно { $nee
 too-low = высота { $of } – { $height }, а робота – { $needed }
 step-between = ступень { $rise } между { $pair }
 gap = промежуток { $place } – { $width }, роботу нужно { $needed } ({ $between })
+by-usual-sizes = { $list }, по обычным размерам таких вещей, на месте их не измеряли
 no-way-out = из { $room } выхода нет
 shut-off = { $place } путь загораживают: { $by }
 doorless = из { $room } нет ни двери, ни прохода в другие помещения

@@ -22,6 +22,8 @@ pub(super) enum Mark {
     Move,
     /// «куда»
     Whither,
+    /// «откуда»
+    Whence,
     /// "anything"
     Anything,
     As,
@@ -212,6 +214,7 @@ impl Mark {
                 | Self::Exists
                 | Self::Who
                 | Self::Whither
+                | Self::Whence
         )
     }
 }

@@ -24,7 +24,7 @@ macro_rules! marks {
 
 /// Every mark that words may have; in the file they go by their names here.
 const MARKS: &[Mark] = marks![
-    Where What Anything Kinds Hang Opens Whither How Move As Which HowMany Count Side HowFar HowLong
+    Where What Anything Kinds Hang Opens Whither Whence How Move As Which HowMany Count Side HowFar HowLong
     HowGet When Why WhyNot Who Exists Be Have Lead Parts MadeOf Describe List See LastSeen Last
     Before Free Sit LieDown PutDown Can Hold Take You Me Not Avoiding Unopened MustOpen Must Cannot
     Differ Alike Without Directly OccupiedBy Took Moved OnlyOne And Or ThanTo Than All Each Except

@@ -58,7 +58,7 @@ impl Knowledge<'_> {
         };
         let mut measures = match query {
             Query::Size { dimension, .. } => *dimension != Dimension::Elevation,
-            Query::SameSize { .. } | Query::Describe(_) => true,
+            Query::SameSize { .. } | Query::Describe(_) | Query::Distance { .. } => true,
             Query::Larger { extreme, .. } | Query::WhichMore { extreme, .. } => by_size(extreme),
             _ => false,
         };
