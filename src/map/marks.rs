@@ -17,6 +17,8 @@ pub enum Mark {
     KeptOn,
     /// Whether there is light in a room by itself.
     Light,
+    /// Where in an imported file something stands: for programs, and not told.
+    Source,
     /// That the size of an Object is the usual one of its kind, which nobody measured.
     UsualSize,
 }
@@ -32,6 +34,7 @@ impl Mark {
             Self::KeyWith => ["КЛЮЧ_У", "key_with"],
             Self::KeptOn => ["ХРАНИТСЯ_НА", "kept_on"],
             Self::Light => ["СВЕТ", "light"],
+            Self::Source => ["ИСТОЧНИК", "source"],
             Self::UsualSize => ["ОБЫЧНЫЙ_РАЗМЕР", "usual_size"],
         }
     }

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use crate::map::BaseVector;
 use crate::map::plane::edges;
 use crate::map::{
-    Area, Domain, DomainMap, DoorMount, Forms, Gender, Item, LiftStop, Map, MapItem, Orthoframe,
-    Permeability, Properties, TypeKind, World,
+    Area, Domain, DomainMap, DoorMount, Forms, Gender, Item, LiftStop, Map, MapItem, Mark,
+    Orthoframe, Permeability, Properties, TypeKind, World,
 };
 use crate::report::{What, Why};
 use crate::synonyms::{Synonyms, Vocabulary};
@@ -28,7 +28,7 @@ pub(super) const HEIGHT: f64 = 270.0;
 /// Of a door where the file does not tell, cm.
 const DOOR_HEIGHT: f64 = 205.0;
 /// The property that holds the file's own id.
-const SOURCE: &str = "ИСТОЧНИК";
+pub(super) const SOURCE: &str = Mark::Source.names()[0];
 
 /// The world in the making, and what the makers of its parts share.
 pub(super) struct Maker<'a> {

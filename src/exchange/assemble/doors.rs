@@ -11,12 +11,11 @@ use crate::report::{What, Why};
 use crate::units::{AreaId, Cm, Deg, DoorId, Point, TypeId};
 use crate::{Level, Opening, OpeningKind};
 
-use super::build::{Doors, Maker, Storey, door_height};
+use super::build::{Doors, Maker, SOURCE, Storey, door_height};
 use super::names;
 use super::openings::what;
 use super::wall::SideUse;
 
-const SOURCE: &str = "ИСТОЧНИК";
 /// Of a leaf where the file does not tell, cm.
 const THICKNESS: f64 = 4.0;
 

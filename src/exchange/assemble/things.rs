@@ -12,13 +12,12 @@ use crate::synonyms::{Meaning, Vocabulary};
 use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, capitalized, said};
 use crate::{Kind, Level, Spot, Thing};
 
-use super::build::{Maker, Storey};
+use super::build::{Maker, SOURCE, Storey};
 use super::index::Index;
 use super::kinds::{self, Built};
 use super::names::{self, Named};
 use super::ring::{Region, Ring, overlay};
 
-const SOURCE: &str = "ИСТОЧНИК";
 /// The word of the formats for a place where robots charge.
 const CHARGER: &str = "charger";
 /// How far a thing may be moved into its room, cm.

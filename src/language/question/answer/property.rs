@@ -276,8 +276,8 @@ impl Knowledge<'_> {
     pub(super) fn told_values(&self, thing: Thing) -> Vec<(Property, Option<ValueId>, String)> {
         let is_id = |text: &str| text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
         let mut values = self.values(thing);
-        let usual = Mark::UsualSize.names().map(Property::of);
-        values.retain(|(property, _, _)| !usual.contains(property));
+        let untold = [Mark::UsualSize, Mark::Source].map(|mark| mark.names().map(Property::of));
+        values.retain(|(property, _, _)| !untold.as_flattened().contains(property));
         values.retain(|(_, _, text)| !is_id(text));
         values
     }

@@ -218,6 +218,42 @@ impl Frame<'_, '_> {
         Some(Query::Find(noun))
     }
 
+    /// "Which table is the dining table?": those of the first sort that are what stands behind "is".
+    fn which_is(&self, asked: &Subject, named: &Subject) -> Option<Query> {
+        let is = |mark: &Mark| matches!(mark, Mark::Be | Mark::The | Mark::A);
+        let between: Vec<&Mark> = self.between(asked.at, named.at).collect();
+        let measured =
+            |(mark, _): &(Mark, usize)| matches!(mark, Mark::BestTo(_) | Mark::Nearer(_));
+        let more = self.marks.iter().any(measured) || self.has(Mark::Or) || self.has(Mark::All);
+        let bare =
+            |noun: &Noun| noun.best.is_none() && noun.head.things.is_none() && !noun.head.anything;
+        if !between.contains(&&Mark::Be)
+            || !between.into_iter().all(is)
+            || more
+            || self.negated
+            || named.negated
+            || ![&asked.noun, &named.noun].into_iter().all(bare)
+            || self.sort(&asked.noun) != self.sort(&named.noun)
+        {
+            return None;
+        }
+        let mut those = Noun { plural: true, ..named.noun.clone() };
+        those.also.push(asked.noun.head.clone());
+        those.filters.extend(asked.noun.filters.iter().cloned());
+        those.restrictions.extend(asked.noun.restrictions.iter().cloned());
+        Some(Query::Find(self.with_rest(those, &[])))
+    }
+
+    /// Whether a noun is of rooms and whether of doors; neither is of things.
+    fn sort(&self, noun: &Noun) -> (bool, bool) {
+        (self.is_area(noun), self.is_doors(noun) || self.is_exits(noun))
+    }
+
+    /// The marks between two places of the sentence.
+    fn between(&self, from: usize, to: usize) -> impl Iterator<Item = &Mark> {
+        self.marks.iter().filter(move |(_, at)| (from + 1..to).contains(at)).map(|(mark, _)| mark)
+    }
+
     pub(super) fn which(&self) -> Option<Query> {
         if !self.asks() {
             return None;
@@ -225,10 +261,13 @@ impl Frame<'_, '_> {
         let question = self.place_of(Mark::Which).or_else(|| self.place_of(Mark::What))?;
         // "What kind of door is Door 1?": of Door 1, which is one.
         let of_kind = self.sentence.keys.iter().any(|key| set!("KindWord").contains(&&**key));
-        if let ([kind, named], true, true) = (&self.nouns[..], of_kind, self.spots.is_empty())
+        if let ([kind, named], true) = (&self.nouns[..], of_kind)
             && self.follows_which(kind.at)
             && kind.noun.head.named.is_empty()
-            && !named.noun.head.named.is_empty()
+            && self.between(kind.at, named.at).any(|mark| *mark == Mark::Be)
+            && !self.spots.iter().any(|spot| spot.at < named.at)
+            && (!named.noun.head.named.is_empty()
+                || self.sort(&kind.noun) == self.sort(&named.noun))
         {
             let mut of = self.with_rest(named.noun.clone(), &[]);
             of.also.push(kind.noun.head.clone());
@@ -332,6 +371,11 @@ impl Frame<'_, '_> {
                 those.head.named.clear();
                 those.head.kinds.retain(sort);
                 return Some(Query::Find(self.with_rest(those, &[])));
+            }
+            if let ([only], false, None) = (&others[..], has, link)
+                && let Some(query) = self.which_is(asked, only)
+            {
+                return Some(query);
             }
             if rooms && !others.is_empty() && asked.at < others[0].at {
                 // «В какой комнате и кровать, и лампа?»
