@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use orthoframe::engine::{Change, Engine, Memory, Timestamp};
+use orthoframe::engine::{Change, Engine, Memory, Method, Timestamp};
 use orthoframe_exchange::{
     ImportError, Imported, Options, Room, Synonyms, Treatment, Vocabulary, What, file_text, read,
     read_rmf, read_virtualhome,
 };
+use orthoframe_language::Language;
 use orthoframe_map::{DoorState, Replica, World, check};
 use orthoframe_units::{AreaId, Cm, MapId, Point};
 
@@ -294,6 +295,20 @@ fn rooms_that_the_source_joins_can_be_driven_between() {
             .collect();
         let parted = parted(building.world, &|area| of.get(&area).cloned());
         assert_eq!(parted, [], "{name}");
+    }
+}
+
+/// No thing of usual size bars a lane: where the office's own robots wait, ours comes from every other such place.
+#[test]
+fn places_that_lanes_join_can_be_driven_between() {
+    let Some(building) = imported("rmf/office.building.yaml") else { return };
+    let engine = Engine::in_memory(building.world, None).expect("rules are sound");
+    let world = engine.world().expect("a map");
+    let places: Vec<&str> = world.places.values().map(|place| place.name.as_str()).collect();
+    assert!(places.len() > 10);
+    for pair in places.windows(2) {
+        let way = engine.route(pair[0], pair[1], Method::Shortest).expect("both are on the map");
+        assert!(way.route.is_ok(), "{pair:?}: {:?}", way.no_way_in_words(world, Language::English));
     }
 }
 

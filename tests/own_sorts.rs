@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use orthoframe::Engine;
 use orthoframe::engine::Memory;
 use orthoframe_language::command::Command;
+use orthoframe_language::question::Thing;
 use orthoframe_language::{Case, NounPhrase, names};
 use orthoframe_map::{DoorKind, Entity, Mark, World};
 
@@ -101,6 +102,37 @@ fn doors_and_rooms_are_asked_for_by_their_sorts() {
     let toilets = clinic.ask("Which rooms are toilets?", &mut Memory::default());
     let areas = toilets.unwrap().unwrap().things;
     assert!(areas.len() > 1 && areas.iter().all(|thing| thing.area().is_some()), "{areas:?}");
+}
+
+/// "Which door is the front door?", "Which table is Side table 1?": what stands behind "is", and not all of the first word.
+#[test]
+fn which_of_a_sort_is_what_is_named_tells_it_alone() {
+    let mut asked = 0;
+    for house in HOUSES {
+        let Some(engine) = engine(&format!("../shared/data/{house}")) else { return };
+        let world = engine.world().unwrap();
+        let things = |question: &str| match engine.ask(question, &mut Memory::default()).unwrap() {
+            Ok(answer) => answer.things,
+            Err(doubt) => panic!("{question}: {}", doubt.text),
+        };
+        for replica in world.replicas.values() {
+            let word = replica.name_en.split(' ').rev().find(|word| word.parse::<u32>().is_err());
+            let (word, name) = (word.unwrap().to_lowercase(), &replica.name_en);
+            let told = things(&format!("Which {word} is {name}?"));
+            assert_eq!(told, [Thing::Entity(Entity::Replica(replica.id))], "{word}, {name}");
+            asked += 1;
+        }
+        let outer = things("Which doors lead outside?");
+        assert_eq!(things("Which door is the front door?"), outer, "{house}");
+        if let [only] = outer[..] {
+            let sort = told(&engine, "What kind of door is the front door?").0;
+            let Thing::Entity(Entity::Door(id)) = only else { panic!("{only:?}") };
+            let kind = world.doors[&id].door_type.expect("a sort");
+            assert!(sort.contains(&world.types.door.entries[&kind].name_en), "{sort}");
+            asked += 1;
+        }
+    }
+    assert!(asked > 30, "{asked}");
 }
 
 #[test]

@@ -306,6 +306,7 @@ record-left-out = the record is left out: { $why }
 file-left-out = the file is left out: { $what }
 left-out-counted = left out, { $what }: { $count }
 no-room-of-use = the file has no room that could be used{"\u000A"}{ $report }
+usual-size-made-smaller = of the usual width and depth { $share } % are taken: larger ones would stand in each other or where robots drive
 moved-out-of-the-wall = stood in the wall; moved into the room by { LENGTH($by) }
 counted = { $count }: { $why }
 no-body-but-outline = there is no body: its outline on the plan is taken, and a height of { LENGTH($height) }

@@ -306,6 +306,7 @@ record-left-out = запись пропущена: { $why }
 file-left-out = файл пропущен: { $what }
 left-out-counted = не взято, { $what }: { $count }
 no-room-of-use = в файле нет ни одного пригодного помещения{"\u000A"}{ $report }
+usual-size-made-smaller = взято { $share } % обычной ширины и глубины: бо́льшие стояли бы друг в друге или там, где ездят роботы
 moved-out-of-the-wall = стояло в стене; сдвинуто в помещение на { LENGTH($by) }
 counted = { $count } шт.: { $why }
 no-body-but-outline = тела нет: взят контур на плане, высота принята { LENGTH($height) }

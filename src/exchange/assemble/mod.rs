@@ -13,6 +13,7 @@
 
 mod build;
 mod doors;
+mod fitted;
 mod index;
 mod kinds;
 mod lanes;

@@ -13,6 +13,7 @@ use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, capitaliz
 use crate::{Kind, Level, Spot, Thing};
 
 use super::build::{Maker, SOURCE, Storey};
+use super::fitted;
 use super::index::Index;
 use super::kinds::{self, Built};
 use super::names::{self, Named};
@@ -58,18 +59,18 @@ impl Maker<'_> {
             }
         }
         let mut made = Vec::with_capacity(survey.kinds.len());
-        for (kind, is_used) in survey.kinds.iter().zip(is_used) {
-            made.push(is_used.then(|| self.object(kind)));
+        for (n, (kind, is_used)) in survey.kinds.iter().zip(is_used).enumerate() {
+            made.push(is_used.then(|| self.object(n, kind)));
         }
         made
     }
 
-    fn object(&mut self, kind: &Kind) -> Made {
+    fn object(&mut self, n: usize, kind: &Kind) -> Made {
         let found = self
             .synonyms
             .find(Vocabulary::Object, &kind.word)
             .or_else(|| self.synonyms.find(Vocabulary::Object, &kind.source));
-        let (meaning, size) = (found.map(|f| f.meaning.clone()), found.and_then(|f| f.size));
+        let (meaning, mut size) = (found.map(|f| f.meaning.clone()), found.and_then(|f| f.size));
         if meaning.is_none() {
             let word = kind.word.clone();
             self.report.noted(What::Kind, &kind.source, Why::UnknownWord { word });
@@ -77,6 +78,15 @@ impl Maker<'_> {
         if kind.parts.is_empty() && size.is_none() {
             let kind_name = kind.word.clone();
             self.report.mended(What::Kind, &kind.source, Why::UnknownSize { kind: kind_name });
+        }
+        if let Some([width, depth, _]) = size.as_mut().filter(|_| kind.parts.is_empty()) {
+            let clearance = self.world.robot.passing_width() / 2.0;
+            let share = fitted::share_of(self.survey, n, [*width, *depth], clearance);
+            if share < 1.0 {
+                (*width, *depth) = (*width * share, *depth * share);
+                let text = said!("usual-size-made-smaller", share = (share * 100.0).floor());
+                self.report.noted(What::Kind, &kind.source, Why::Other { text });
+            }
         }
         let built = kinds::build(kind, size, self.report);
         let id = ObjectId(self.world.objects.len() as u32 + 1);
