@@ -49,3 +49,27 @@ fn a_charger_is_called_by_its_kind_and_by_its_name() {
         assert_eq!(answer.language, Language::Russian, "{}", answer.text);
     }
 }
+
+/// A place whose name no case changes is whither a thing is brought, with its kind before it and without.
+#[test]
+fn a_thing_is_brought_to_a_place_that_no_case_changes() {
+    let Some(engine) = engine("../shared/data/rmf/office.building.yaml") else { return };
+    let world = engine.world().unwrap();
+    let mut asked = 0;
+    for place in world.places.values() {
+        let Some((kind, own)) = place.name.split_once(' ') else { continue };
+        if !own.is_ascii() || own.contains('_') || own.ends_with(|c: char| c.is_ascii_digit()) {
+            continue;
+        }
+        for place_name in [own.to_owned(), format!("{} {own}", kind.replace("чка", "чку"))] {
+            let order = format!("Принеси колу в {place_name}");
+            let commands = engine.understand_in(&order, &mut Memory::default());
+            let commands = commands.unwrap_or_else(|error| panic!("{order}: {error}"));
+            let [command] = &commands[..] else { panic!("{order}: {commands:?}") };
+            let to = command.place().map(|to| to.anchor);
+            assert_eq!(to, Some(Entity::Place(place.id)), "{order}: {command:?}");
+            asked += 1;
+        }
+    }
+    assert!(asked > 5, "{asked}");
+}

@@ -244,7 +244,12 @@ impl Resolver<'_, '_> {
                 let one = spots.len() == 1 && !matches!(spots[0].rel, Rel::From);
                 (one && has_object).then_some(0)
             }),
-            Sort::Carry => told(true),
+            // «Принеси колу в lounge»: what is there would be brought «из lounge».
+            Sort::Carry => told(true).or_else(|| {
+                let bare = |n: &usize| has_object && matches!(spots[*n].rel, Rel::On | Rel::In);
+                let russian = self.sentence.language == Language::Russian;
+                open().filter(bare).filter(|_| russian)
+            }),
             // "Go out to the hallway"; "leave the book on the bed"
             Sort::Leave => told(true).or_else(|| {
                 let on = |n: &usize| has_object && matches!(spots[*n].rel, Rel::On | Rel::In);
