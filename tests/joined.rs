@@ -357,7 +357,17 @@ fn a_taking_is_part_of_the_placing_behind_it() {
         };
     let told = ends((
         &lab,
-        &["Get", "Take", "Grab", "Pick up", "Fetch", "Collect", "Please get", "Go and get"],
+        &[
+            "Get",
+            "Take",
+            "Grab",
+            "Pick up",
+            "Fetch",
+            "Collect",
+            "Clear away",
+            "Please get",
+            "Go and get",
+        ],
         &[
             ("the battery and the toolbox", "them"),
             ("the battery", "it"),

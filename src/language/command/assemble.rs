@@ -68,8 +68,12 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                         *facing = Some(seen);
                     }
                     (_, command) => {
-                        if matches!(command, Command::Bring { to: None, .. }) && !clause.is_for_me()
-                        {
+                        let is_bare = match command {
+                            Command::Bring { to: None, .. } => !clause.is_for_me(),
+                            Command::PutAway(_) => true,
+                            _ => false,
+                        };
+                        if is_bare {
                             fetched.push(commands.len());
                         }
                         commands.push(command);
@@ -77,10 +81,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 }
             }
         }
-        // "Get the milk and put it in the fridge": it is got only to be put there.
+        // "Get the milk and put it in the fridge", "Clear the mug off the table and put it in the sink": it is got, or put
+        // away, only to be put there.
         for at in fetched {
             let [command, later @ ..] = &mut commands[at..] else { continue };
-            if let Command::Bring { what, .. } = command
+            if let Command::Bring { what, .. } | Command::PutAway(what) = command
                 && later.iter().any(|next| next.places(&what.id))
             {
                 *command = Command::Take { what: what.clone() };

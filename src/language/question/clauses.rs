@@ -375,6 +375,14 @@ pub(super) fn is_reported(keys: &[String]) -> bool {
 pub(super) fn goes_on(before: &str, part: &str) -> bool {
     static POINTING: Set = Set::named("PointingOne");
     let (keys, told) = (word_keys(part), word_keys(before));
+    // «… но не те, что на столах», "… just not the ones on the desk": what is left out of what stands before.
+    let leads = |key: &str| set!("But").contains(&key) || set!("OnlyWord").contains(&key);
+    let mut words = keys.iter().skip_while(|key| leads(key.as_str()));
+    let denied = words.next().is_some_and(|key| set!("Not").contains(&key.as_str()));
+    let mut words = words.skip_while(|key| key.as_str() == "the");
+    if denied && words.next().is_some_and(|key| POINTING.contains(&key.as_str())) {
+        return true;
+    }
     match keys.first().map(String::as_str) {
         Some("чем" | "than") => (0..told.len()).any(|n| {
             matches!(vocabulary::longest(&told[n..]), Some((_, Mark::More(_) | Mark::Nearer(_))))

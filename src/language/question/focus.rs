@@ -86,12 +86,25 @@ impl Knowledge<'_> {
         compound
     }
 
-    /// Whether things may be told by where they are to such a one: not where it is only carried about itself.
+    /// «левый кабинет номер 5»: of what a name means alone none is the leftmost; the word tells of another, or of its name.
+    pub(super) fn foremost_of_one(&self, query: &Query) -> Option<String> {
+        let mut word = None;
+        query.clone().each_noun(&mut |noun| {
+            if is_foremost_of_one(noun) {
+                word.get_or_insert_with(|| without_article(&noun.text).to_owned());
+            }
+        });
+        word
+    }
+
+    /// Whether things may be told by where they are to such a one: not where it is only carried about itself, nor to a
+    /// person: "nurse desks" are a sort.
     fn is_place_of_things(&self, noun: &Noun) -> bool {
         let has = |id, wanted| self.world.has_trait(id, wanted);
         let carried = |t: &Thing| {
             t.replica().is_some_and(|id| {
-                has(id, "portable") && !has(id, "container") && !has(id, "support")
+                let carried = has(id, "portable") && !has(id, "container") && !has(id, "support");
+                carried || has(id, "person")
             })
         };
         !self.base(&noun.head).iter().any(carried)
@@ -395,6 +408,13 @@ impl Knowledge<'_> {
                 floors(noun) || itself && bare == Noun::default()
             }
             Query::Count(noun) | Query::Where(noun) => floors(noun),
+            // "On what floors?", of nothing: a storey is in no room and on nothing.
+            Query::RoomOf(noun) | Query::Anchor { of: noun, .. } => {
+                let base = self.base(&noun.head);
+                let storey = |thing: &Thing| matches!(thing, Thing::Entity(Entity::Map(_)));
+                !base.is_empty() && base.iter().all(storey)
+            }
+            Query::Several(queries) => queries.iter().any(|query| self.tells_nothing(query)),
             Query::Exists { what, .. } => what.iter().any(floors),
             _ => false,
         }
@@ -454,4 +474,10 @@ pub(super) fn without_article(said: &str) -> &str {
     };
     let rest = said.split_once(' ').and_then(article);
     rest.map_or(said, |rest| &said[said.len() - rest..])
+}
+
+/// Whether a superlative stands with the name of one thing.
+pub(super) fn is_foremost_of_one(noun: &Noun) -> bool {
+    let is_name = noun.head.kinds.is_empty() && noun.head.named.len() == 1;
+    noun.best.is_some() && is_name && noun.head.things.is_none() && noun.also.is_empty()
 }

@@ -671,7 +671,8 @@ impl Asker<'_> {
         if let Some(word) = none {
             return Err(Box::new((Doubt::NoReferent { word }, None)));
         }
-        if let Some(reference) = knowledge.unknown_compound(&query) {
+        let unknown = knowledge.unknown_compound(&query);
+        if let Some(reference) = unknown.or_else(|| knowledge.foremost_of_one(&query)) {
             return Err(Box::new((Doubt::Unknown { reference, near: Vec::new() }, Some(query))));
         }
         if let Some(doubt) = knowledge.contested(&query) {

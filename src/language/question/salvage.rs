@@ -71,6 +71,8 @@ impl Asker<'_> {
             let at_once = |n: usize| {
                 let reported = is_reported(&keys[..n]) || n == 0 && led;
                 let joint = reported && JOINTS.contains(&keys[n].as_str());
+                // "I was told by the nurse …": who tells is no place of what is told.
+                let is_agent = reported && n > 0 && keys[n] == "by";
                 // «Собираюсь заваривать чай, а где чайник?»: an activity alone does not ask, and "what's" is one word.
                 let activity =
                     matches!(vocabulary::longest(&keys[n..]), Some((_, Mark::Activity(_))));
@@ -84,7 +86,7 @@ impl Asker<'_> {
                 let before = n.checked_sub(1 + usize::from(article));
                 let governs = !reported && before.is_some_and(is_link);
                 let cuts = cuts || governs;
-                !joint && !cuts && (n == 0 || reported || asks)
+                !joint && !is_agent && !cuts && (n == 0 || reported || asks)
             };
             let begins = (0..words.len().min(MOST_WORDS)).filter(|n| at_once(*n));
             for begin in begins.map(|n| words[n].start) {
@@ -290,7 +292,13 @@ impl Asker<'_> {
                 Item::Noun(phrase) if phrase.person.is_none() => {
                     !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
                 }
-                Item::Place { .. } => n > 0,
+                // "On what floors?" asks of nothing that it names.
+                Item::Place { nouns, .. } => {
+                    let start = nouns.first().map_or(0, |phrase| phrase.words.start);
+                    let before = start.checked_sub(1).map(|n| &sentence.keys[n..=n]);
+                    let asked = before.and_then(vocabulary::longest).map(|(_, mark)| mark);
+                    n > 0 && !matches!(asked, Some(Mark::Which | Mark::What))
+                }
                 Item::Unknown(words) => self.is_word(sentence.said(words)),
                 Item::Mark(mark) => {
                     matches!(mark, Mark::Activity(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)

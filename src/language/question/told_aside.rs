@@ -2,6 +2,7 @@
 //!
 //! Invariant: what bounds a question is never left aside; what is taken back is not spoken of.
 
+use super::focus::is_foremost_of_one;
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::{Asker, Doubt, Memory, Noun, Thing, opening, several};
@@ -108,8 +109,8 @@ impl Asker<'_> {
                 _ => (Vec::new(), false),
             };
             for phrase in phrases.iter().filter(|p| p.person.is_none() && p.pronoun.is_none()) {
-                // "The one in the hall" is among what was spoken of.
-                if phrase.noun.head.anything {
+                // "The one in the hall" is among what was spoken of; «левый кабинет 5» is no cabinet of the map.
+                if phrase.noun.head.anything || is_foremost_of_one(&phrase.noun) {
                     return None;
                 }
                 let noun = Noun { plural: true, ..phrase.noun.clone() };

@@ -168,11 +168,11 @@ impl Knowledge<'_> {
             Thing::Entity(Entity::Map(_)) => {
                 let domain = &self.world.domain;
                 match self.is_russian() {
-                    true => format!("{name} – карта домейна «{}»", domain.name),
+                    true => format!("{name} – этаж здания «{}»", domain.name),
                     false => {
                         let title =
                             if domain.name_en.is_empty() { &domain.name } else { &domain.name_en };
-                        format!("{name} is a map of \"{title}\"")
+                        format!("{name} is a floor of \"{title}\"")
                     }
                 }
             }

@@ -141,8 +141,10 @@ impl Frame<'_, '_> {
         if let Some(choice) = self.either_place() {
             return Some(choice);
         }
-        // «Где чашка, которая не белая?» denies the value.
-        let denies = self.negated && !taken && self.values.iter().all(|(_, _, negated)| !negated);
+        // «Где чашка, которая не белая?» denies the value, «Где ключи не на столах?» the place.
+        let value = self.values.iter().any(|(_, _, negated)| *negated);
+        let place = self.spots.iter().any(|spot| spot.negated);
+        let denies = self.negated && !taken && !value && !place;
         if let (true, Some(lacked)) = (denies, self.nouns.first())
             && !self.is_area(&lacked.noun)
         {
