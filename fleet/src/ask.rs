@@ -12,7 +12,7 @@ use tokio_postgres::types::ToSql;
 use crate::error::{FleetError, Result};
 use crate::language::{NounPhrase, WordHints, english};
 use crate::query::{Question, Table};
-use crate::units::{Language, name_key};
+use crate::units::{Language, name_key, told};
 
 /// What a question came to.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -104,12 +104,7 @@ pub async fn ask(transaction: &Transaction<'_>, text: &str) -> Result<Answer> {
     if WHERE_APART.contains(&key.as_str()) {
         return where_apart(transaction, language).await;
     }
-    Err(FleetError::content(language.pick(
-        "вопрос не понят. Можно спросить: «В каких корпусах есть свободные стулья?», «Какой робот последним видел \
-         Чашку-1?», «Что изменилось за неделю?», «Где карты и представления расходятся больше всего?»",
-        "the question is not understood. Ask: “In which buildings are there free chairs?”, “Which robot last saw \
-         Cup 1?”, “What changed this week?”, “Where do maps and beliefs disagree most?”",
-    )))
+    Err(FleetError::content(told!(language, "question-not-understood")))
 }
 
 /// The forms of a name by which people may mean it.
@@ -137,12 +132,8 @@ async fn where_are(
         kinds.iter().filter(|kind| forms(kind).iter().any(|form| form == noun)).collect();
     let Some(kind) = meant.first() else {
         let some: Vec<&str> = kinds.iter().take(5).map(String::as_str).collect();
-        return Err(FleetError::content(format!(
-            "{} «{noun}»{} {}",
-            language.pick("на картах нет вещей вида", "no map has things of the kind"),
-            language.pick("; есть, например:", "; there are, for example:"),
-            some.join(", ")
-        )));
+        let some = some.join(", ");
+        return Err(FleetError::content(told!(language, "no-such-kind", noun, some)));
     };
     // Spellings of one kind, such as Стул and стул, are asked for together.
     let mut table = Table::default();
@@ -169,7 +160,7 @@ async fn where_are(
         }
     }
     let text = if by_building.is_empty() {
-        language.pick("Ни в одном.", "In none.").to_owned()
+        told!(language, "in-none")
     } else {
         let told =
             by_building.iter().map(|(name, things)| format!("{name}: {}", things.join(", ")));
@@ -202,9 +193,9 @@ pub(crate) async fn rows(
     })
 }
 
-fn lines(table: &Table, none: &str, line: impl Fn(&[String]) -> String) -> String {
+fn lines(table: &Table, none: String, line: impl Fn(&[String]) -> String) -> String {
     if table.rows.is_empty() {
-        return none.to_owned();
+        return none;
     }
     table.rows.iter().map(|row| line(row)).collect::<Vec<_>>().join("\n")
 }
@@ -227,11 +218,7 @@ async fn who_saw(
     let columns = ["building", "thing", "robot", "seen", "area"];
     let mut table = rows(transaction, &columns, sql, &[&beginnings]).await?;
     table.rows.retain(|row| forms(&row[1]).iter().any(|form| form == phrase));
-    let none = language.pick(
-        "Её не видел ни один робот, или её нет на картах.",
-        "No robot has seen it, or no map has it.",
-    );
-    let text = lines(&table, none, |row| {
+    let text = lines(&table, told!(language, "seen-by-none"), |row| {
         format!("{}: {} – {}, {} UTC, {}", row[0], row[1], row[2], row[3], row[4])
     });
     Ok(Answer { text, rule: None, table })
@@ -251,10 +238,9 @@ async fn what_changed(
                ORDER BY v.\"RecDate\" DESC LIMIT 1000";
     let columns = ["building", "robot", "revision", "author", "reason", "at", "records"];
     let table = rows(transaction, &columns, sql, &[&(days as f64)]).await?;
-    let none = language.pick("Ничего.", "Nothing.");
-    let records = language.pick("записей", "records");
-    let text = lines(&table, none, |row| {
-        format!("{} {}: {} ({}) – {}, {records} {}", row[5], row[0], row[4], row[3], row[1], row[6])
+    let text = lines(&table, told!(language, "nothing-changed"), |row| {
+        let [building, robot, _, author, reason, at, records] = row else { return String::new() };
+        told!(language, "was-changed", at, building, reason, author, robot, records)
     });
     Ok(Answer { text, rule: None, table })
 }
@@ -265,11 +251,9 @@ async fn where_apart(transaction: &Transaction<'_>, language: Language) -> Resul
                GROUP BY b.building, b.name ORDER BY count(DISTINCT p.thing) DESC, b.building LIMIT 20";
     let columns = ["building", "things", "farthest, cm"];
     let table = rows(transaction, &columns, sql, &[]).await?;
-    let none =
-        language.pick("Нигде: всё там, где на картах.", "Nowhere: all is where the maps have it.");
-    let (things, far) =
-        (language.pick("вещей", "things"), language.pick("дальше всего, см", "farthest, cm"));
-    let text =
-        lines(&table, none, |row| format!("{}: {things} {}; {far}: {}", row[0], row[1], row[2]));
+    let text = lines(&table, told!(language, "apart-nowhere"), |row| {
+        let [building, things, farthest] = row else { return String::new() };
+        told!(language, "apart-there", building, things, farthest)
+    });
     Ok(Answer { text, rule: None, table })
 }

@@ -272,7 +272,7 @@ async fn edited(
     let transaction = client.transaction().await?;
     let change = editor(&transaction, &key, editing.reason).await?;
     let Editing { building, on, r#try: tries, text, .. } = editing;
-    let format = Format::of_text(std::path::Path::new("правка"), &text);
+    let format = Format::of_text(std::path::Path::new("edit"), &text);
     let revised =
         revise::edit(&transaction, &Edit { building, on, text, format, tries }, &change).await?;
     if !tries {
@@ -299,9 +299,9 @@ async fn revised(
     let mut client = centre.client().await?;
     let transaction = client.transaction().await?;
     let change = editor(&transaction, &key, revising.reason).await?;
-    let format = Format::of_text(std::path::Path::new("карта"), &revising.map);
-    let world = World::parse(&Source::new("карта", revising.map), format)
-        .map_err(|faulty| FleetError::content(revise::faults(&faulty).join("\n")))?;
+    let format = Format::of_text(std::path::Path::new("map"), &revising.map);
+    let world = World::parse(&Source::new("map", revising.map), format)
+        .map_err(|faulty| FleetError::content(revise::all_faults(&faulty)))?;
     let Revising { building, on, .. } = revising;
     let made = revise::revise(&transaction, building, Some(on), &world, &change).await?;
     transaction.commit().await?;

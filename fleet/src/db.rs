@@ -50,7 +50,7 @@ impl Server {
         let recycling = ManagerConfig { recycling_method: RecyclingMethod::Fast };
         let manager = Manager::from_config(self.config.clone(), self.tls.clone(), recycling);
         let built = Pool::builder(manager).max_size(most).build();
-        built.map_err(|error| FleetError::Database { what: error.to_string() })
+        built.map_err(|error| FleetError::Database { what: error.to_string().into() })
     }
 
     /// One connection of one's own, for migrations and other long work.

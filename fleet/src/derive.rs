@@ -15,6 +15,7 @@ use crate::map::World;
 use crate::rows::At;
 use crate::semantics::{RelationRules, derive};
 use crate::sheets::sheet;
+use crate::units::Bilingual;
 
 /// The relation of a thing to its kind and its kind's type.
 pub const IS_A: &str = "IS_A";
@@ -31,7 +32,8 @@ pub type Fact = (String, String, String);
 /// # Errors
 /// [`FleetError::Content`] when the rules cannot be run.
 pub fn facts(world: &World, rules: &RelationRules) -> Result<BTreeSet<Fact>> {
-    let failed = |error: crate::semantics::RelationError| FleetError::content(error.to_string());
+    let failed =
+        |error: crate::semantics::RelationError| FleetError::content(Bilingual::of(&error));
     let relations = derive(world, rules, world.domain.profile).map_err(failed)?;
     let mut all = BTreeSet::new();
     for count in relations.counts() {

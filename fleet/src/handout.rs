@@ -17,7 +17,7 @@ use crate::error::{FleetError, Result};
 use crate::sheets::{revision, sheet};
 use crate::store::Sheet;
 use crate::store::shipping::pack_rows;
-use crate::units::Timestamp;
+use crate::units::{Timestamp, said};
 
 /// What a robot hears of the centre's map.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -132,7 +132,7 @@ pub fn apart(base: Option<&Sheet>, robots: &Sheet, centres: &Sheet) -> Result<Ve
     use crate::store::Changes;
     use crate::units::Language::Russian;
     let (Some(mine), Some(theirs)) = (robots.world()?, centres.world()?) else {
-        return Err(FleetError::content("на карте нет Домейна"));
+        return Err(FleetError::content(said!("map-has-no-domain")));
     };
     let base = base.map(Sheet::world).transpose()?.flatten();
     let from = base.as_ref().unwrap_or(&mine);

@@ -50,7 +50,7 @@ impl Holder {
         let mut body = told.to_string().into_bytes();
         body.push(b'\n');
         body.extend(rows);
-        let held = |why: String| FleetError::Held { why };
+        let held = |why: String| FleetError::Held { why: why.into() };
         let config = ureq::Agent::config_builder()
             .http_status_as_error(false)
             .timeout_connect(Some(Duration::from_secs(5)))

@@ -21,6 +21,7 @@ use crate::error::{FleetError, Result};
 use crate::rows::{At, Values, kind, place, quoted};
 use crate::store::shipping::{Frame, Whole, Written};
 use crate::store::{Cell, Column, Key, Kind, Row, Table};
+use crate::units::said;
 
 /// How far a robot's journal is here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -169,7 +170,7 @@ fn records_of(frames: &[Frame]) -> Result<Vec<Written>> {
 }
 
 fn number(n: u64) -> Result<i64> {
-    i64::try_from(n).map_err(|_too_large| FleetError::content(format!("номер {n} слишком велик")))
+    i64::try_from(n).map_err(|_too_large| FleetError::content(said!("number-too-large", n)))
 }
 
 async fn check_known(transaction: &Transaction<'_>, robot: &Robot, known: &[Frame]) -> Result<()> {

@@ -3,6 +3,7 @@
 use tokio_postgres::Client;
 
 use crate::error::{FleetError, Result};
+use crate::units::said;
 
 /// Notes a building under a number of its own.
 ///
@@ -21,7 +22,7 @@ pub async fn add_building(client: &Client, building: i64, name: &str) -> Result<
 /// [`FleetError::Database`]: there is such a robot already, for one.
 pub async fn add_robot(client: &Client, building: i64, robot: i64, name: &str) -> Result<String> {
     if robot <= 0 {
-        return Err(FleetError::content("номер робота больше нуля: ноль – это центр"));
+        return Err(FleetError::content(said!("robot-numbers-begin-at-one")));
     }
     let add = "INSERT INTO fleet.robot (building, robot, name) VALUES ($1, $2, $3)";
     client.execute(add, &[&building, &robot, &name]).await?;
@@ -84,7 +85,7 @@ pub async fn leave(client: &Client, session: &str) -> Result<()> {
 pub async fn revoke(client: &Client, name: &str) -> Result<()> {
     let sql = "UPDATE fleet.key SET revoked = now() WHERE name = $1 AND revoked IS NULL";
     match client.execute(sql, &[&name]).await? {
-        0 => Err(FleetError::Unknown { what: format!("ключ «{name}»") }),
+        0 => Err(FleetError::unknown(said!("key-named", name))),
         _ => Ok(()),
     }
 }
@@ -106,7 +107,8 @@ async fn add_key(
 /// 256 random bits, in hexadecimal digits.
 fn secret() -> Result<String> {
     let mut bytes = [0_u8; 32];
-    getrandom::fill(&mut bytes)
-        .map_err(|error| FleetError::content(format!("нет случайных чисел: {error}")))?;
+    getrandom::fill(&mut bytes).map_err(|error| {
+        FleetError::content(said!("no-random-numbers", why = error.to_string()))
+    })?;
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }

@@ -21,11 +21,12 @@ use orthoframe_semantics as semantics;
 use orthoframe_store as store;
 use orthoframe_units as units;
 
+units::messages!("../../rules/messages", "fleet", FleetError);
+
 pub mod ask;
 mod console;
 pub mod db;
 pub mod derive;
-mod english;
 mod error;
 pub mod gate;
 pub mod handout;

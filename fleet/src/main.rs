@@ -15,6 +15,7 @@ use orthoframe_fleet::{FleetError, Result, db, derive, handout, keys, migrate, r
 use orthoframe_map::World;
 use orthoframe_semantics::RelationRules;
 use orthoframe_store::Change;
+use orthoframe_units::{Bilingual, Fault as _, Language};
 
 /// Many robots, many buildings: one centre on PostgreSQL.
 #[derive(Parser)]
@@ -226,16 +227,14 @@ fn main() -> ExitCode {
 }
 
 fn told(error: &FleetError) -> String {
-    use miette::Diagnostic;
-    use orthoframe_units::InEnglish;
-    if std::env::var("ORTHO_LANG").is_ok_and(|language| language == "en") {
-        let help =
-            error.english_help().map_or_else(String::new, |help| format!("\n  help: {help}"));
-        format!("{}{help}", error.english())
-    } else {
-        let help = error.help().map_or_else(String::new, |help| format!("\n  help: {help}"));
-        format!("{error}{help}")
-    }
+    let help = error.remedy(language());
+    let help = help.map_or_else(String::new, |help| format!("\n  help: {help}"));
+    format!("{}{help}", error.tell(language()))
+}
+
+fn language() -> Language {
+    let is_english = std::env::var("ORTHO_LANG").is_ok_and(|language| language == "en");
+    if is_english { Language::English } else { Language::Russian }
 }
 
 fn run(command: Command) -> Result<Came> {
@@ -293,7 +292,7 @@ async fn at_the_centre(command: AtCentre) -> Result<Came> {
         }
         AtCentre::Revise { database, building, map, by } => {
             let world =
-                World::load(&map).map_err(|faults| FleetError::content(faults.to_string()))?;
+                World::load(&map).map_err(|faults| FleetError::content(Bilingual::of(&faults)))?;
             let mut client = database.server()?.pool(1)?.get().await?;
             let transaction = client.transaction().await?;
             let revision =
@@ -362,11 +361,7 @@ fn push(line: &Line, store: &Path, every: Option<u64>, pulls: bool) -> Result<Ca
         });
         match (&done, every) {
             (Ok((pushed, _)), _) => {
-                let whole = if pushed.whole { ", хранилище целиком" } else { "" };
-                println!(
-                    "Кадров отправлено: {}{whole}; в центре – до {}.",
-                    pushed.frames, pushed.sequence
-                );
+                println!("{}", pushed.in_words(language()));
             }
             // The line will come back; a key will not.
             (Err(error @ FleetError::Line { .. }), Some(_)) => eprintln!("{}", told(error)),
@@ -378,25 +373,7 @@ fn push(line: &Line, store: &Path, every: Option<u64>, pulls: bool) -> Result<Ca
 }
 
 fn pull(line: &Line, store: &Path) -> Result<Came> {
-    match line.pull(store)? {
-        Pulled::Nothing => println!("Нового в центре нет."),
-        Pulled::Same { centre } => println!("Карта уже такая, как в центре (ревизия {centre})."),
-        Pulled::Taken { centre, revision } => {
-            println!("Принята карта центра, ревизия {centre}; здесь это ревизия {revision}.");
-        }
-        Pulled::Apart(conflict) => {
-            println!("Карта центра (ревизия {}) и своя разошлись; остались обе:", conflict.centre);
-            for apart in conflict.things {
-                println!("{}", apart.thing);
-                for (side, told) in [("в центре", apart.centre), ("здесь", apart.robot)]
-                {
-                    if !told.is_empty() {
-                        println!("     {side}: {told}");
-                    }
-                }
-            }
-            return Ok(Came::No);
-        }
-    }
-    Ok(Came::Through)
+    let pulled = line.pull(store)?;
+    println!("{}", pulled.in_words(language()));
+    Ok(if matches!(pulled, Pulled::Apart(_)) { Came::No } else { Came::Through })
 }

@@ -5,6 +5,7 @@
 use tokio_postgres::Client;
 
 use crate::error::{FleetError, Result};
+use crate::units::said;
 
 struct Migration {
     name: &'static str,
@@ -64,7 +65,7 @@ pub async fn migrate(client: &mut Client, undivided: bool) -> Result<Vec<&'stati
         match known.map(|row| row.get::<_, i64>(0)) {
             Some(before) if before == checksum => continue,
             Some(_) => {
-                let what = format!("шаг {} уже сделан, но был другим", migration.name);
+                let what = said!("step-was-another", step = migration.name);
                 return Err(FleetError::Database { what });
             }
             None => {}

@@ -8,7 +8,7 @@ use crate::geometry::{DoorStates, FloorPlan};
 use crate::language::zone_in_words;
 use crate::map::{DoorStatus, World};
 use crate::sheets::{revision, sheet};
-use crate::units::{AreaId, Deg, DoorId, Frame, Language, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, Frame, Language, MapId, Point, Pose, ReplicaId, said};
 
 /// What of a building is wanted.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,7 @@ pub async fn plan(transaction: &Transaction<'_>, wanted: Wanted) -> Result<Strin
     if wanted.as_believed {
         believe(transaction, building, robot, &mut world).await?;
     }
-    let unknown = || FleetError::Unknown { what: format!("этаж здания {building}") };
+    let unknown = || FleetError::unknown(said!("storey-of-building", building));
     let storeys: Vec<MapId> = world.domain.maps.iter().map(|placed| placed.map).collect();
     let map = match wanted.map {
         Some(id) => storeys.iter().copied().find(|map| map.0 == id),
@@ -64,7 +64,7 @@ pub async fn plan(transaction: &Transaction<'_>, wanted: Wanted) -> Result<Strin
 pub async fn world(transaction: &Transaction<'_>, building: i64, robot: i64) -> Result<World> {
     let last = revision(transaction, building, robot).await?;
     let records = sheet(transaction, building, robot, last).await?;
-    let none = || FleetError::Unknown { what: format!("карта здания {building}") };
+    let none = || FleetError::unknown(said!("map-of-building", building));
     records.world()?.ok_or_else(none)
 }
 

@@ -12,6 +12,7 @@ use crate::push::Line;
 use crate::sheets::same;
 use crate::store::shipping::unpack_rows;
 use crate::store::{Change, Sheet, Store, StoreError};
+use crate::units::{Bilingual, Language, said, told};
 
 /// What a pull came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,6 +27,31 @@ pub enum Pulled {
     Apart(Conflict),
 }
 
+impl Pulled {
+    /// What came of it, in a line, or in some where the maps went apart.
+    #[must_use]
+    pub fn in_words(&self, language: Language) -> String {
+        match self {
+            Self::Nothing => told!(language, "nothing-new"),
+            Self::Same { centre } => told!(language, "same-map", centre),
+            Self::Taken { centre, revision } => told!(language, "map-taken", centre, revision),
+            Self::Apart(conflict) => {
+                let head = told!(language, "maps-apart", centre = conflict.centre);
+                let sides = [told!(language, "at-the-centre"), told!(language, "at-the-robot")];
+                conflict.things.iter().fold(head, |mut told, apart| {
+                    told += &format!("\n{}", apart.thing);
+                    for (side, what) in sides.iter().zip([&apart.centre, &apart.robot]) {
+                        if !what.is_empty() {
+                            told += &format!("\n     {side}: {what}");
+                        }
+                    }
+                    told
+                })
+            }
+        }
+    }
+}
+
 impl Line {
     /// Takes the centre's newest map into a store, in one transaction, or tells what went apart.
     ///
@@ -36,7 +62,7 @@ impl Line {
         let Some(rows) = rows else { return Ok(Pulled::Nothing) };
         let Handout { centre, agreed_robot, .. } = told;
         let mut new = Sheet::default();
-        let unread = || FleetError::content("карта центра не читается");
+        let unread = || FleetError::content(said!("centre-map-unreadable"));
         for (table, row) in unpack_rows(&rows).ok_or_else(unread)? {
             new.add(table, row)?;
         }
@@ -48,7 +74,8 @@ impl Line {
         }
         let base = base(&store, agreed_robot, mine.is_empty())?;
         if base.as_ref() == Some(&mine) {
-            let reason = format!("центр, ревизия {centre}: {}", told.reason);
+            let reason =
+                told!(Language::Russian, "taken-from-centre", centre, reason = told.reason);
             let change = Change::new(told.author, crate::handout::now(), reason);
             let revision = match holder {
                 Some(holder) => holder.take(store.revision(), &rows, &change)?,
@@ -71,7 +98,7 @@ fn opened(dir: &Path) -> Result<(Store, Option<Holder>)> {
         Ok((store, _)) => Ok((store, None)),
         Err(locked @ StoreError::Locked { .. }) => {
             let holder =
-                Holder::of(dir).ok_or_else(|| FleetError::Held { why: locked.to_string() })?;
+                Holder::of(dir).ok_or_else(|| FleetError::Held { why: Bilingual::of(&locked) })?;
             Ok((Store::open_read_only(dir)?.0, Some(holder)))
         }
         Err(error) => Err(error.into()),

@@ -14,6 +14,7 @@ use crate::ingest::Position;
 use crate::query::Table;
 use crate::serve::Refusal;
 use crate::store::shipping::{Following, Frame, frames_after, whole};
+use crate::units::{Bilingual, Language, said, told};
 
 /// Frames of one request, before they are packed.
 const BATCH_BYTES: usize = 4 << 20;
@@ -37,6 +38,15 @@ pub struct Pushed {
     pub whole: bool,
     /// The last transaction that is at the centre.
     pub sequence: i64,
+}
+
+impl Pushed {
+    /// How much was sent.
+    #[must_use]
+    pub fn in_words(&self, language: Language) -> String {
+        let Self { frames, whole, sequence } = self;
+        told!(language, "frames-sent", frames, whole, sequence)
+    }
 }
 
 impl Line {
@@ -66,7 +76,11 @@ impl Line {
     }
 
     fn fault(&self, what: impl std::fmt::Display) -> FleetError {
-        FleetError::Line { url: self.url.clone(), what: format!("{what}") }
+        self.fault_of(what.to_string().into())
+    }
+
+    fn fault_of(&self, what: Bilingual) -> FleetError {
+        FleetError::Line { url: self.url.clone(), what }
     }
 
     fn bearer(&self) -> String {
@@ -118,6 +132,10 @@ impl Line {
         let Ok(refusal) = serde_json::from_slice::<Refusal>(&body) else {
             return Err(self.fault(status));
         };
+        let what = match refusal.what_en.is_empty() {
+            true => refusal.what.into(),
+            false => Bilingual::new(refusal.what, refusal.what_en),
+        };
         Err(match (refusal.fault.as_str(), refusal.position) {
             ("gap", Some(at)) => {
                 FleetError::Gap { have: at.sequence, checksum: at.checksum, came: 0 }
@@ -125,8 +143,8 @@ impl Line {
             ("diverged", _) => FleetError::Diverged { sequence: 0 },
             ("key", _) => FleetError::Key,
             ("forbidden", _) => FleetError::Forbidden,
-            ("unknown", _) => FleetError::Unknown { what: refusal.what },
-            ("content", _) => FleetError::Content { what: refusal.what },
+            ("unknown", _) => FleetError::Unknown { what },
+            ("content", _) => FleetError::Content { what },
             _ => self.fault(status),
         })
     }
@@ -214,7 +232,7 @@ impl Line {
                 }
             };
             at = match sent {
-                Ok(now) if now == at => return Err(self.fault("центр не идёт вперёд")),
+                Ok(now) if now == at => return Err(self.fault_of(said!("centre-does-not-go-on"))),
                 Ok(now) => now,
                 // Somebody else has sent some meanwhile, or the centre was put back.
                 Err(FleetError::Gap { have, checksum, .. }) => {
@@ -242,7 +260,7 @@ impl Line {
 
 fn sequence(at: Position) -> Result<u64> {
     u64::try_from(at.sequence)
-        .map_err(|_negative| FleetError::content(format!("номер кадра {}", at.sequence)))
+        .map_err(|_negative| FleetError::content(said!("frame-numbered", sequence = at.sequence)))
 }
 
 fn is_loopback(url: &str) -> bool {

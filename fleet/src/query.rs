@@ -22,6 +22,7 @@ use nom::{IResult, Parser};
 use tokio_postgres::types::ToSql;
 
 use crate::error::{FleetError, Result};
+use crate::units::said;
 
 /// A variable, a name, or anything.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -97,7 +98,7 @@ impl Question {
     /// # Errors
     /// [`FleetError::Content`] with what could not be read.
     pub fn parse(text: &str) -> Result<Self> {
-        let bad = |rest: &str| FleetError::content(format!("вопрос не читается у «{rest}»"));
+        let bad = |rest: &str| FleetError::content(said!("question-unreadable-at", rest));
         let whole = text.trim();
         let mut reading =
             preceded(opt(spaced(tag("?-"))), separated_list1(char(','), spaced(premise)));
@@ -109,7 +110,7 @@ impl Question {
             return Err(bad(rest));
         }
         if premises.len() > MOST_PREMISES {
-            return Err(FleetError::content(format!("в вопросе больше {MOST_PREMISES} условий")));
+            return Err(FleetError::content(said!("too-many-premises", most = MOST_PREMISES)));
         }
         Ok(Self { premises })
     }
@@ -132,7 +133,7 @@ impl Question {
             sql.fact(relation, terms)?;
         }
         if sql.tables.is_empty() {
-            return Err(FleetError::content("нужно хотя бы одно условие без отрицания"));
+            return Err(FleetError::content(said!("one-premise-must-affirm")));
         }
         for (relation, terms) in facts(true) {
             sql.no_fact(relation, terms)?;
@@ -170,7 +171,7 @@ impl Question {
             parameters.iter().map(|p| p as &(dyn ToSql + Sync)).collect();
         let found = transaction.query(&text, &given).await?;
         if found.len() > MOST_ROWS {
-            return Err(FleetError::content(format!("ответов больше {MOST_ROWS}")));
+            return Err(FleetError::content(said!("too-many-answers", most = MOST_ROWS)));
         }
         let row = |row: &tokio_postgres::Row| {
             (0..columns.len()).map(|at| row.try_get::<_, String>(at)).collect::<Result<_, _>>()
@@ -200,9 +201,7 @@ impl Sql {
     fn check(relation: &str, terms: &[Term]) -> Result<()> {
         match terms.len() {
             1 | 2 => Ok(()),
-            n => {
-                Err(FleetError::content(format!("у «{relation}» мест {n}, а бывает одно или два")))
-            }
+            n => Err(FleetError::content(said!("one-place-or-two", relation, n))),
         }
     }
 
@@ -266,11 +265,10 @@ impl Sql {
         match term {
             Term::Name(name) => Ok(self.parameter(name)),
             Term::Variable(v) => {
-                self.bound.get(v).cloned().ok_or_else(|| {
-                    FleetError::content(format!("«{v}» ни одно условие не связывает"))
-                })
+                let unbound = || FleetError::content(said!("bound-by-no-premise", name = v));
+                self.bound.get(v).cloned().ok_or_else(unbound)
             }
-            Term::Any => Err(FleetError::content("«_» ни с чем не сравнивается")),
+            Term::Any => Err(FleetError::content(said!("anything-is-not-compared"))),
         }
     }
 }

@@ -22,7 +22,7 @@ use crate::store::shipping::Written;
 use crate::store::{
     Change, Changes, Edits, Record, Row, Sheet, Stamp, Store, Table, Version, next_ids, numbered,
 };
-use crate::units::{Language, Source};
+use crate::units::{Bilingual, Fault as _, Language, OwnText, Source, said};
 
 /// Steps and sections as in a map file, to be worked into the centre's map.
 #[derive(Debug, Clone)]
@@ -97,19 +97,19 @@ fn work_in(old: &Sheet, ids: &[LastIds], edit: &Edit) -> Result<(Revised, Sheet)
     let before = old.world()?.unwrap_or_else(World::empty);
     let exact = NameIndex::of(&before);
     let naming = Naming { exact: &exact, in_other_words: &|_| Vec::new() };
-    let source = Source::new("правка", edit.text.clone());
+    let source = Source::own(OwnText::Edit, &edit.text);
     let EditReading { world, faults: mut found, carriers, .. } = map::edit(
         &before,
         &map::Edits::read(&source, edit.format),
         &free_ids(&before, ids),
         naming,
     );
-    let wrong = |found: &MapErrors| FleetError::content(faults(found).join("\n"));
+    let wrong = |found: &MapErrors| FleetError::content(all_faults(found));
     let mut after = world.ok_or_else(|| wrong(&found))?;
     let mut left_behind = Vec::new();
     if before.replicas != after.replicas {
         let relations = derive(&before, &RelationRules::standard(), before.domain.profile)
-            .map_err(|error| FleetError::content(error.to_string()))?;
+            .map_err(|error| FleetError::content(Bilingual::of(&error)))?;
         let stayed = load::carry(&before, &relations, &carriers, &mut after);
         let names = stayed.iter().filter_map(|id| before.replicas.get(id));
         left_behind.extend(names.map(|thing| thing.name.clone()));
@@ -140,8 +140,14 @@ fn free_ids(world: &World, given: &[LastIds]) -> NextIds {
 }
 
 /// All faults of a map, a line each.
-pub(crate) fn faults(all: &MapErrors) -> Vec<String> {
+fn faults(all: &MapErrors) -> Vec<String> {
     all.faults.iter().map(|fault| fault.error.to_string()).collect()
+}
+
+/// A line for each.
+pub(crate) fn all_faults(all: &MapErrors) -> Bilingual {
+    let lines = |language| all.faults.iter().map(move |fault| fault.error.tell(language));
+    Bilingual::both(|language| lines(language).collect::<Vec<_>>().join("\n"))
 }
 
 /// Makes the centre's map of a building equal to a robot's, as it is here, and notes that the two agree.
@@ -181,7 +187,7 @@ pub async fn insist(transaction: &Transaction<'_>, building: i64, robot: i64) ->
 async fn locked(transaction: &Transaction<'_>, building: i64) -> Result<i64> {
     let lock = "SELECT revision FROM fleet.robot WHERE building = $1 AND robot = 0 FOR UPDATE";
     let row = transaction.query_opt(lock, &[&building]).await?;
-    Ok(row.ok_or_else(|| FleetError::Unknown { what: format!("здание {building}") })?.get(0))
+    Ok(row.ok_or_else(|| FleetError::unknown(said!("building-numbered", building)))?.get(0))
 }
 
 /// A store in a folder that goes again, with the centre's map in it.
@@ -238,7 +244,7 @@ async fn put(
     change: &Change,
 ) -> Result<i64> {
     if new.world()?.is_none() {
-        return Err(FleetError::content("на карте нет Домейна"));
+        return Err(FleetError::content(said!("map-has-no-domain")));
     }
     let written = changes(old, new, before + 1, change);
     if written.is_empty() {

@@ -38,6 +38,7 @@ use crate::ingest::{Position, position, take_frames, take_whole};
 use crate::lists::Kept;
 use crate::push::gzip;
 use crate::store::shipping::{Frame, Whole, split_frames};
+use crate::units::{InEnglish as _, said};
 
 /// Bytes of one request as they come.
 const MOST_BYTES: usize = 256 << 20;
@@ -49,7 +50,10 @@ const MOST_UNPACKED: u64 = 1 << 30;
 pub struct Refusal {
     /// `gap`, `diverged`, `key`, `forbidden`, `content`, `moved`, `unknown`, `database`.
     pub fault: String,
+    /// In Russian, then in English.
     pub what: String,
+    #[serde(default)]
+    pub what_en: String,
     /// With `gap`: how far the journal is here.
     pub position: Option<Position>,
 }
@@ -81,8 +85,12 @@ impl IntoResponse for FleetError {
             _ => None,
         };
         // What the database says of itself is not for the line.
-        let what = if fault == "database" { String::new() } else { self.to_string() };
-        (status, Json(Refusal { fault: fault.to_owned(), what, position })).into_response()
+        let [what, what_en] = match fault {
+            "database" => Default::default(),
+            _ => [self.to_string(), self.english()],
+        };
+        let refusal = Refusal { fault: fault.to_owned(), what, what_en, position };
+        (status, Json(refusal)).into_response()
     }
 }
 
@@ -137,22 +145,22 @@ async fn frames_of(headers: &HeaderMap, body: Bytes) -> Result<Vec<Frame>> {
     let is_packed = match packed {
         None | Some("identity") => false,
         Some("gzip") => true,
-        Some(other) => return Err(FleetError::content(format!("сжатие «{other}» неизвестно"))),
+        Some(other) => return Err(FleetError::content(said!("packing-unknown", packing = other))),
     };
     let cut = move || {
         let unpacked = if is_packed {
             let mut out = Vec::new();
             let mut unpacking = flate2::read::GzDecoder::new(&body[..]).take(MOST_UNPACKED + 1);
             let read = unpacking.read_to_end(&mut out);
-            read.map_err(|error| FleetError::content(format!("сжатое не читается: {error}")))?;
+            read.map_err(|error| FleetError::content(said!("packed-unreadable", why = error)))?;
             if out.len() as u64 > MOST_UNPACKED {
-                return Err(FleetError::content("слишком много за один раз"));
+                return Err(FleetError::content(said!("too-much-at-once")));
             }
             out
         } else {
             body.to_vec()
         };
-        split_frames(&unpacked).ok_or_else(|| FleetError::content("это не кадры журнала"))
+        split_frames(&unpacked).ok_or_else(|| FleetError::content(said!("these-are-no-frames")))
     };
     tokio::task::spawn_blocking(cut)
         .await

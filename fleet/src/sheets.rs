@@ -6,6 +6,7 @@ use futures_util::future::try_join_all;
 use crate::error::{FleetError, Result};
 use crate::rows::{cell, place, quoted};
 use crate::store::{Cell, Row, Sheet, Table};
+use crate::units::said;
 
 /// The rows of a table of a robot's map as of a revision, or of what it notes as it is now; gone ones left out. `U+2400`
 /// stands where the robot has a zero byte.
@@ -74,8 +75,7 @@ pub async fn sheet(
 pub async fn revision(transaction: &Transaction<'_>, building: i64, robot: i64) -> Result<i64> {
     let sql = "SELECT revision FROM fleet.robot WHERE building = $1 AND robot = $2";
     let row = transaction.query_opt(sql, &[&building, &robot]).await?;
-    let unknown =
-        || FleetError::Unknown { what: format!("робот {robot} здания {building}") };
+    let unknown = || FleetError::unknown(said!("robot-of-building", robot, building));
     Ok(row.ok_or_else(unknown)?.get(0))
 }
 

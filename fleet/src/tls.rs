@@ -16,6 +16,7 @@ use tokio_postgres::tls::{ChannelBinding, MakeTlsConnect, TlsConnect, TlsStream}
 use tokio_rustls::TlsConnector;
 
 use crate::error::{FleetError, Result};
+use crate::units::{Bilingual, said};
 
 /// Whom to believe: the usual authorities, or one.
 #[derive(Clone)]
@@ -31,13 +32,16 @@ impl Tls {
             Some(path) => {
                 let failed = |source| FleetError::Io { path: path.display().to_string(), source };
                 let pem = std::fs::read(path).map_err(failed)?;
-                let bad = |why: String| FleetError::content(format!("{}: {why}", path.display()));
+                let bad = |why: Bilingual| {
+                    let told = |language| format!("{}: {}", path.display(), why.say(language));
+                    FleetError::content(Bilingual::both(told))
+                };
                 for certificate in CertificateDer::pem_slice_iter(&pem) {
-                    let certificate = certificate.map_err(|error| bad(error.to_string()))?;
-                    roots.add(certificate).map_err(|error| bad(error.to_string()))?;
+                    let certificate = certificate.map_err(|error| bad(error.to_string().into()))?;
+                    roots.add(certificate).map_err(|error| bad(error.to_string().into()))?;
                 }
                 if roots.is_empty() {
-                    return Err(bad("сертификата нет".to_owned()));
+                    return Err(bad(said!("no-certificate")));
                 }
             }
         }

@@ -362,12 +362,12 @@ async fn the_database_beyond_this_machine_is_spoken_to_with_tls_alone() {
     ] {
         let refused = db::Server::new(&address, by).expect("an address").connect().await;
         let Err(FleetError::Database { what }) = refused else { panic!("{address}") };
-        assert!(what.contains("certificate"), "{what}");
+        assert!(what.to_string().contains("certificate"), "{what}");
     }
     let plain = db::Server::new(&format!("{far} sslmode=disable"), Some(&authority));
     assert!(matches!(plain, Err(FleetError::PlainDatabase { host }) if host == name));
     // A server that speaks none, or a thief in its place, hears nothing of us.
     postgres.restart_plain();
     let Err(FleetError::Database { what }) = server.connect().await else { panic!("it is plain") };
-    assert!(what.contains("TLS"), "{what}");
+    assert!(what.to_string().contains("TLS"), "{what}");
 }

@@ -6,8 +6,8 @@ use super::fault::Failure;
 use super::opened::open;
 use super::{Answer, say};
 use crate::engine::{Engine, Relations, RequestError};
-use crate::facts::{Value, WhyNot};
-use crate::units::{Language, told, word};
+use crate::facts::{SEE_ABOVE, Value, WhyNot};
+use crate::units::{Language, told};
 
 /// Runs the command. A fact that is asked about the wrong way round – why, though it does not hold – is answered with
 /// "no" and with what can be said.
@@ -125,8 +125,7 @@ impl<'a> Names<'a> {
             rest = after;
         }
         shown.push_str(rest);
-        let above = word!("see-above");
-        shown.replace(&*above.say(Language::Russian), &above.say(Language::English))
+        shown.replace(&*SEE_ABOVE.say(Language::Russian), &SEE_ABOVE.say(Language::English))
     }
 }
 

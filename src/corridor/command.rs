@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::units::{Language, capitalized};
+use crate::units::{Argument, Language, Value, told, word};
 
 use super::system::{JunctionKind, Side, Turn};
 
@@ -25,44 +25,33 @@ impl Command {
     /// «движение до двери слева»
     #[must_use]
     pub fn russian(self) -> Cow<'static, str> {
-        Cow::Borrowed(match self {
-            Self::Face(Side::Right) => "встать вдоль коридора, чтобы дверь была справа",
-            Self::Face(Side::Left) => "встать вдоль коридора, чтобы дверь была слева",
-            Self::Face(Side::Ahead) => "встать спиной к двери",
-            Self::ToJunction(_) => "движение до соединения коридоров",
-            Self::Take(Turn::Straight) => "движение прямо",
-            Self::Take(Turn::Right) => "поворот направо",
-            Self::Take(Turn::Left) => "поворот налево",
-            Self::Take(Turn::Nth(n)) => {
-                return format!("поворот {}, считая справа", nth_corridor(n)).into();
-            }
-            Self::ToDoor(Side::Right) => "движение до двери справа",
-            Self::ToDoor(Side::Left) => "движение до двери слева",
-            Self::ToDoor(Side::Ahead) => "движение до двери прямо",
-            Self::UTurn => "разворот",
-        })
+        self.words(Language::Russian)
     }
 
     /// "drive to the door on the left"
     #[must_use]
     pub fn english(self) -> Cow<'static, str> {
-        Cow::Borrowed(match self {
-            Self::Face(Side::Right) => "stand along the corridor with the door on the right",
-            Self::Face(Side::Left) => "stand along the corridor with the door on the left",
-            Self::Face(Side::Ahead) => "stand with your back to the door",
-            Self::ToJunction(_) => "drive to the corridor junction",
-            Self::Take(Turn::Straight) => "go straight on",
-            Self::Take(Turn::Right) => "turn right",
-            Self::Take(Turn::Left) => "turn left",
+        self.words(Language::English)
+    }
+
+    fn words(self, language: Language) -> Cow<'static, str> {
+        let words = match self {
+            Self::Face(Side::Right) => word!("face-right"),
+            Self::Face(Side::Left) => word!("face-left"),
+            Self::Face(Side::Ahead) => word!("face-ahead"),
+            Self::ToJunction(_) => word!("to-junction"),
+            Self::Take(Turn::Straight) => word!("take-straight"),
+            Self::Take(Turn::Right) => word!("take-right"),
+            Self::Take(Turn::Left) => word!("take-left"),
             Self::Take(Turn::Nth(n)) => {
-                let nth = english_ordinal(usize::from(n));
-                return format!("take the {nth} corridor from the right").into();
+                return told!(language, "take-nth", n, nth = Nth(n.into())).into();
             }
-            Self::ToDoor(Side::Right) => "drive to the door on the right",
-            Self::ToDoor(Side::Left) => "drive to the door on the left",
-            Self::ToDoor(Side::Ahead) => "drive to the door straight ahead",
-            Self::UTurn => "make a U-turn",
-        })
+            Self::ToDoor(Side::Right) => word!("to-door-right"),
+            Self::ToDoor(Side::Left) => word!("to-door-left"),
+            Self::ToDoor(Side::Ahead) => word!("to-door-ahead"),
+            Self::UTurn => word!("u-turn"),
+        };
+        words.say(language)
     }
 
     /// A stable word for programs: `to_door_left`, `take_3_from_right`.
@@ -108,60 +97,40 @@ impl Command {
 impl Command {
     /// A command after `passed` entrances that were driven by.
     fn sentence(self, language: Language, passed: usize) -> String {
-        match (language, self) {
-            (Language::Russian, Self::ToDoor(side)) => {
-                let hand = match side {
-                    Side::Right => "справа",
-                    Side::Left => "слева",
-                    Side::Ahead => "прямо",
+        match self {
+            Self::ToDoor(side) => {
+                let side = match side {
+                    Side::Right => "right",
+                    Side::Left => "left",
+                    Side::Ahead => "ahead",
                 };
-                format!("Проезжайте до {}-го входа, дверь {hand}.", passed + 1)
+                told!(language, "drive-to-entrance", nth = Nth(passed + 1), side)
             }
-            (Language::Russian, Self::ToJunction(_)) if passed > 0 => {
-                // «мимо» takes the genitive: мимо 1 входа, мимо 2 входов, мимо 21 входа.
-                let one = passed % 10 == 1 && passed % 100 != 11;
-                let word = if one { "входа" } else { "входов" };
-                format!("Проезжайте мимо {passed} {word} до соединения коридоров.")
-            }
-            (Language::English, Self::ToDoor(side)) => {
-                let hand = match side {
-                    Side::Right => "on the right",
-                    Side::Left => "on the left",
-                    Side::Ahead => "straight ahead",
-                };
-                format!("Drive to the {} entrance, the door {hand}.", english_ordinal(passed + 1))
-            }
-            (Language::English, Self::ToJunction(_)) if passed > 0 => {
-                let word = if passed == 1 { "entrance" } else { "entrances" };
-                format!("Drive past {passed} {word} to the corridor junction.")
-            }
-            (Language::Russian, Self::Take(Turn::Nth(n))) => {
-                format!("Сверните {}, считая справа.", nth_corridor(n))
-            }
-            (Language::Russian, other) => imperative(other).to_owned(),
-            (Language::English, other) => format!("{}.", capitalized(&other.english())),
+            Self::ToJunction(_) if passed > 0 => told!(language, "drive-past-entrances", passed),
+            Self::ToJunction(_) => told!(language, "drive-to-junction"),
+            Self::Face(Side::Right) => told!(language, "stand-right"),
+            Self::Face(Side::Left) => told!(language, "stand-left"),
+            Self::Face(Side::Ahead) => told!(language, "stand-ahead"),
+            Self::Take(Turn::Straight) => told!(language, "go-straight"),
+            Self::Take(Turn::Right) => told!(language, "turn-right"),
+            Self::Take(Turn::Left) => told!(language, "turn-left"),
+            Self::Take(Turn::Nth(n)) => told!(language, "turn-nth", n, nth = Nth(n.into())),
+            Self::UTurn => told!(language, "make-u-turn"),
         }
     }
 }
 
-fn imperative(command: Command) -> &'static str {
-    match command {
-        Command::Face(Side::Right) => "Встаньте вдоль коридора, чтобы дверь была справа.",
-        Command::Face(Side::Left) => "Встаньте вдоль коридора, чтобы дверь была слева.",
-        Command::Face(Side::Ahead) => "Встаньте спиной к двери.",
-        Command::ToJunction(_) => "Проезжайте до соединения коридоров.",
-        Command::Take(Turn::Straight) => "Двигайтесь прямо.",
-        Command::Take(Turn::Right) => "Поверните направо.",
-        Command::Take(Turn::Left) => "Поверните налево.",
-        Command::Take(Turn::Nth(_)) => "Сверните.",
-        Command::ToDoor(_) => "Проезжайте до двери.",
-        Command::UTurn => "Развернитесь.",
-    }
-}
+/// Which one: in Russian the number, to which each message has the ending that its noun asks for; in English the ordinal.
+struct Nth(usize);
 
-/// «в 3-й коридор», «во 2-й коридор»
-fn nth_corridor(n: u8) -> String {
-    format!("{} {n}-й коридор", if n == 2 { "во" } else { "в" })
+impl Value for Nth {
+    fn told(&self, language: Language) -> Option<Argument<'_>> {
+        let told = match language {
+            Language::Russian => self.0.to_string(),
+            Language::English => english_ordinal(self.0),
+        };
+        Some(told.into())
+    }
 }
 
 fn english_ordinal(n: usize) -> String {

@@ -9,7 +9,7 @@ use i_overlay::float::single::SingleFloatOverlay;
 
 use crate::geometry::{OpenSide, Opening, Openings, Polygon, Scene};
 use crate::map::{Area, World};
-use crate::units::{AreaId, MapId, Point, Vector};
+use crate::units::{AreaId, Language, MapId, Point, Vector, word};
 
 /// Where an entrance opens on the plan.
 #[derive(Debug, Clone)]
@@ -132,7 +132,11 @@ fn entrances(
             Some(behind) if corridor(behind) => continue,
             Some(behind) => Some(names_of(&world.areas[&behind])),
             None if mouth.opening.is_passage() => mouth.name(world),
-            None => mouth.name(world).or_else(|| Some(("Выход".into(), "Exit".into()))),
+            None => mouth.name(world).or_else(|| {
+                let exit = word!("exit");
+                let [name, name_en] = [Language::Russian, Language::English].map(|l| exit.say(l));
+                Some((name.into_owned(), name_en.into_owned()))
+            }),
         };
         if let Some((room, room_en)) = names {
             found.push(Doorstep { room, room_en, at: mouth.middle(), inward: mouth.inward() });

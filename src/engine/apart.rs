@@ -7,7 +7,7 @@ use crate::language::Language;
 use crate::language::words::russian;
 use crate::map::Entity;
 use crate::semantics::{predicate, storey_name};
-use crate::units::{AreaId, InOrder as _, capitalized};
+use crate::units::{AreaId, InOrder as _, capitalized, told};
 
 use super::lexicon::named;
 use super::{State, TaskAnswer};
@@ -97,35 +97,16 @@ impl State {
                 _ => None,
             };
             let elsewhere = map.is_some_and(|map| map != answer.map);
-            match language {
-                Language::Russian => {
-                    let into = match apart.place {
-                        Entity::Map(_) => to.whither_storey(language),
-                        _ => russian::whither(to.phrase()),
-                    };
-                    let into = capitalized(&into);
-                    match (apart.by_stairs, elsewhere) {
-                        (true, _) => {
-                            format!("{into} ведёт только лестница, а по ней роботу не проехать.")
-                        }
-                        (false, true) => format!("{into} не ведёт ни дверь, ни лифт."),
-                        (false, false) => format!("{into} не ведёт ни дверь, ни проход."),
-                    }
-                }
-                Language::English => {
-                    let to = match apart.place {
-                        Entity::Map(_) => to.whither_storey(language),
-                        _ => format!("to {}", to.english()),
-                    };
-                    match (apart.by_stairs, elsewhere) {
-                        (true, _) => {
-                            format!("Only stairs lead {to}, and the robot cannot climb them.")
-                        }
-                        (false, true) => format!("Neither door nor lift leads {to}."),
-                        (false, false) => format!("Neither door nor passage leads {to}."),
-                    }
-                }
-            }
+            let to = match (apart.place, language) {
+                (Entity::Map(_), _) => to.whither_storey(language),
+                (_, Language::Russian) => russian::whither(to.phrase()),
+                (_, Language::English) => told!(language, "to-room", room = to.english()),
+            };
+            capitalized(&match (apart.by_stairs, elsewhere) {
+                (true, _) => told!(language, "only-stairs-lead", to),
+                (false, true) => told!(language, "neither-door-nor-lift-leads", to),
+                (false, false) => told!(language, "neither-door-nor-passage-leads", to),
+            })
         };
         self.unconnected(answer).iter().map(told).collect()
     }

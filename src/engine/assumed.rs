@@ -4,20 +4,24 @@
 //! rule file gives a phrase is told by that; what the Map assumes has words here; any other is read so.
 
 use crate::language::names::hints;
+use crate::language::words::NounPhrase;
 use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{Gender, NounPhrase, Number};
 use crate::language::{Case, Language, WordHints};
 use crate::map::World;
 use crate::robot::Solved;
 use crate::semantics::predicate;
 use crate::strips::{Said, SaidArgument};
+use crate::units::told;
 
+use super::barriers::agrees;
 use super::name_in;
+
+const RUSSIAN: Language = Language::Russian;
 
 /// The assumptions of a plan, each once.
 pub(super) fn assumptions_in_russian(world: &World, solved: &Solved) -> Vec<String> {
     let name = |name: &str| name_in(world, name, Language::Russian);
-    let wording = solved.wording(Language::Russian, &name);
+    let wording = solved.wording(RUSSIAN, &name);
     let mut told: Vec<String> = Vec::new();
     for fact in &solved.assumptions {
         let phrase = wording.fact(fact);
@@ -34,30 +38,27 @@ fn in_russian(world: &World, fact: &Said) -> String {
     let args: Vec<NounPhrase> = fact.args.iter().map(|argument| phrase(world, argument)).collect();
     let of = |at: usize, case: Case| args[at].case(case);
     match (fact.name.as_str(), args.len(), fact.negated) {
-        (predicate::DOOR_OPEN, 3, false) => stands(&args[0], "открыт"),
-        (predicate::DOOR_CLOSED, 3, false) => stands(&args[0], "закрыт"),
-        (predicate::DOOR_LOCKED, 3, false) => stands(&args[0], "заперт"),
-        (predicate::LIFT_WORKS, 1, false) => format!("{} работает", of(0, Case::Nominative)),
+        (predicate::DOOR_OPEN | predicate::DOOR_CLOSED | predicate::DOOR_LOCKED, 3, false) => {
+            let (door, agrees) = (of(0, Case::Nominative), agrees(&args[0]));
+            match fact.name.as_str() {
+                predicate::DOOR_OPEN => told!(RUSSIAN, "door-open", door, agrees),
+                predicate::DOOR_CLOSED => told!(RUSSIAN, "door-closed", door, agrees),
+                _ => told!(RUSSIAN, "door-locked", door, agrees),
+            }
+        }
+        (predicate::LIFT_WORKS, 1, false) => {
+            told!(RUSSIAN, "lift-works", lift = of(0, Case::Nominative))
+        }
         (predicate::CABIN_AT, 2, false) => {
-            let door = russian::with(Preposition::U, Case::Genitive, &args[1]);
-            format!("кабина {} стоит {door}", of(0, Case::Genitive))
+            let at = russian::with(Preposition::U, Case::Genitive, &args[1]);
+            told!(RUSSIAN, "cabin-stands", lift = of(0, Case::Genitive), at)
         }
         (predicate::MAY_BE_IN, 2, false) => {
-            format!("{} может быть {}", of(0, Case::Nominative), russian::where_at(&args[1]))
+            let place = russian::where_at(&args[1]);
+            told!(RUSSIAN, "may-be-there", thing = of(0, Case::Nominative), place)
         }
         _ => as_named(fact, &args),
     }
-}
-
-/// «Дверь-ВZ открыта», «Проход-ВК открыт».
-fn stands(what: &NounPhrase, participle: &str) -> String {
-    let ending = match (what.number(), what.gender()) {
-        (Number::Plural, _) => "ы",
-        (_, Gender::Masculine) => "",
-        (_, Gender::Feminine) => "а",
-        (_, Gender::Neuter) => "о",
-    };
-    format!("{} {participle}{ending}", what.case(Case::Nominative))
 }
 
 /// The words of a predicate's name about its arguments; those that have no place among them, behind.
@@ -65,7 +66,7 @@ fn as_named(fact: &Said, args: &[NounPhrase]) -> String {
     let mut args = args.iter().map(NounPhrase::name);
     let mut words: Vec<String> = Vec::new();
     if fact.negated {
-        words.push("неверно, что".to_owned());
+        words.push(told!(RUSSIAN, "it-is-not-so-that"));
     }
     let pieces: Vec<&str> = fact.name.split('_').collect();
     for (at, piece) in pieces.iter().enumerate() {
@@ -90,7 +91,9 @@ fn phrase(world: &World, argument: &SaidArgument) -> NounPhrase {
             let hints = world.find(name).first().map(|entity| hints(world, *entity));
             NounPhrase::parse(&called, &hints.unwrap_or_default())
         }
-        SaidArgument::Any(kinds) => NounPhrase::parse(&kinds.join(" или "), &WordHints::default()),
+        SaidArgument::Any(kinds) => {
+            NounPhrase::parse(&kinds.join(&told!(RUSSIAN, "or")), &WordHints::default())
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 
 use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
+use crate::language::words::NounPhrase;
 use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
 use crate::map::{DoorStatus, Entity, LiftStop, Mark, World};
 use crate::units::{AreaId, DoorId, Lengths, ReplicaId, told, word};
@@ -133,7 +134,7 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         Barrier::Door { door: id, status } => {
             let name = door(*id);
             let locked = *status == DoorStatus::Locked;
-            let (door, agrees) = (form(&name, Case::Nominative), agrees(&name));
+            let (door, agrees) = (form(&name, Case::Nominative), agrees(name.phrase()));
             match locked {
                 true => told!(language, "door-locked", door, agrees),
                 false => told!(language, "door-closed", door, agrees),
@@ -183,8 +184,8 @@ fn of_usual_size(world: &World, blocker: &Blocker) -> bool {
 }
 
 /// With what a word about it agrees.
-fn agrees(name: &Named) -> &'static str {
-    match (name.phrase().number(), name.phrase().gender()) {
+pub(super) fn agrees(name: &NounPhrase) -> &'static str {
+    match (name.number(), name.gender()) {
         (Number::Plural, _) => "plural",
         (_, Gender::Feminine) => "feminine",
         (_, Gender::Neuter) => "neuter",

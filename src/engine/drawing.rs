@@ -6,11 +6,11 @@ use crate::draw::{
     FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing, ViewLayer,
     object_svg, outer_doors,
 };
-use crate::geometry::{FloorPlan, Opening, Sight};
+use crate::geometry::{FloorPlan, Opening, PassframeKind, Sight};
 use crate::language::zone_in_words;
 use crate::map::{Entity, Object, World};
 use crate::units::{
-    AreaId, InOrder as _, Language, MapId, Point, Pose, Vector, nearest_name, said,
+    AreaId, InOrder as _, Language, MapId, Piece, Point, Pose, Vector, nearest_name, said, word,
 };
 
 use super::{Error, RequestError, State};
@@ -196,15 +196,22 @@ fn mouths(world: &World, floor: &FloorPlan) -> Vec<Mouth> {
     floor.doorways().iter().filter(|d| d.gap > THIN).filter_map(|d| mouth(d)).collect()
 }
 
+/// The paper's word for a Passframe of this kind.
+pub(super) fn kind_of_floor(kind: PassframeKind) -> Piece {
+    match kind {
+        PassframeKind::Closed => word!("closed-zone"),
+        PassframeKind::Boundary => word!("boundary"),
+        PassframeKind::DeadEnd => word!("dead-end"),
+        PassframeKind::Passage => word!("passage"),
+    }
+}
+
 fn floor_layer(floor: &FloorPlan, only: Option<AreaId>, language: Language) -> FloorLayer {
     let mut layer = FloorLayer::default();
     for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
-        layer.passframes.extend(
-            fragment
-                .passframes()
-                .iter()
-                .map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name(language)))),
-        );
+        layer.passframes.extend(fragment.passframes().iter().map(|p| {
+            (p.polygon.clone(), format!("{} · {}", p.id, kind_of_floor(p.kind).say(language)))
+        }));
         layer.dead_zones.extend(fragment.dead_zones().iter().cloned());
     }
     layer

@@ -8,12 +8,13 @@ use crate::language::question::{Crossing, RoomPath, Thing};
 use crate::language::report::{Detail, Named};
 use crate::map::{Entity, Extent, Forms, World, Zone, ZoneKind};
 use crate::semantics::Thresholds;
-use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, ZoneId};
+use crate::units::{AreaId, Deg, DoorId, Gather as _, MapId, Point, ZoneId, told};
 
 use super::advice::Advice;
 use super::known::Known;
 use super::lexicon::named;
 use super::located::{End, Located};
+use super::memory::ROBOT;
 use super::route::RouteAnswer;
 use super::{Error, State};
 
@@ -51,7 +52,7 @@ impl State {
         let mut journey =
             self.around()?.journey_between(("", start), (to, goal), Method::Shortest)?;
         if let [only] = &mut journey.legs[..] {
-            "робот".clone_into(&mut only.from);
+            ROBOT.clone_into(&mut only.from);
         }
         Ok(journey)
     }
@@ -288,28 +289,15 @@ impl Known {
         let lift = Named::plain(&world.domain.lifts[ride.lift].0);
         let floor = world.placement(ride.to).map(|(map, _)| named(world, Entity::Map(map)));
         let whither = floor.map(|floor| floor.whither_storey(language)).unwrap_or_default();
-        Ok(match language {
-            Language::Russian => {
-                let verb = if ride.rise > level {
-                    "Поднимитесь"
-                } else if ride.rise < -level {
-                    "Спуститесь"
-                } else {
-                    "Проезжайте"
-                };
-                format!("{verb} на лифте «{}» {whither}.", lift.phrase().name())
-            }
-            Language::English => {
-                let way = if ride.rise > level {
-                    "up "
-                } else if ride.rise < -level {
-                    "down "
-                } else {
-                    ""
-                };
-                format!("Take the lift “{}” {way}{whither}.", lift.english_name())
-            }
-        })
+        let way = if ride.rise > level {
+            "up"
+        } else if ride.rise < -level {
+            "down"
+        } else {
+            "level"
+        };
+        let lift = language.pick(lift.phrase().name(), lift.english_name());
+        Ok(told!(language, "take-the-lift", way, lift, to = whither))
     }
 }
 

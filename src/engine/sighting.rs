@@ -8,6 +8,7 @@ use crate::map::{Entity, World};
 use crate::sensing::{Belief, Bound, Chart, Localiser, Operative, Options};
 use crate::units::{InOrder as _, MapId, Point, Pose, told};
 
+use super::drawing::kind_of_floor;
 use super::{Drawing, Error, RequestError, Sighted, State};
 
 /// The operative model of one scan.
@@ -105,7 +106,11 @@ impl State {
                 .map(|frame| {
                     (
                         frame.polygon.clone(),
-                        format!("{} {}", frame.id, seen.operative.kind(frame).name(language)),
+                        format!(
+                            "{} {}",
+                            frame.id,
+                            kind_of_floor(seen.operative.kind(frame)).say(language)
+                        ),
                     )
                 })
                 .collect(),

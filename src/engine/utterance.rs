@@ -4,6 +4,8 @@ use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::question::{Doubt, Memory, Unanswered, conditional};
 
+use crate::units::told;
+
 use super::{Error, State};
 
 impl State {
@@ -66,9 +68,6 @@ impl State {
 
 fn not_begun(part: &str, unanswered: Unanswered) -> Unanswered {
     let why = &unanswered.text;
-    let text = match Language::of(part) {
-        Language::Russian => format!("Ничего не начато из-за слов «{part}». {why}"),
-        Language::English => format!("Nothing was begun, because of \"{part}\". {why}"),
-    };
+    let text = told!(Language::of(part), "nothing-was-begun", part, why);
     Unanswered { text, ..unanswered }
 }

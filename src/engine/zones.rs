@@ -284,7 +284,7 @@ impl State {
             }
         };
         let Some(subject) = words.subject(&own, find) else { return Ok(None) };
-        let name = named(world, subject);
+        let called = named(world, subject).form(Case::Nominative, language);
         let lying = match subject {
             Entity::Zone(id) => vec![(id, true)],
             Entity::Area(area) => known.zones_on(area)?,
@@ -317,13 +317,7 @@ impl State {
             return Ok(Some(match way {
                 Err(why) => answer(Said::Found, &shut, None, format!("{}.", capitalized(&why))),
                 Ok(_) => {
-                    let there = language.pick(
-                        format!(
-                            "Можно: путь туда есть ({}).",
-                            name.form(Case::Nominative, language)
-                        ),
-                        format!("One can: there is a way to {}.", name.english()),
-                    );
+                    let there = told!(language, "there-is-a-way", place = called);
                     let beside =
                         if zones.is_empty() { String::new() } else { format!(" {}", told(&zones)) };
                     answer(Said::No, &zones, None, there + &beside)
@@ -331,13 +325,7 @@ impl State {
             }));
         }
         if shut.is_empty() {
-            let open = language.pick(
-                format!(
-                    "{}: целиком этого сейчас никакая зона не закрывает.",
-                    capitalized(&name.form(Case::Nominative, language))
-                ),
-                format!("No zone closes the whole of {} now.", name.english()),
-            );
+            let open = capitalized(&told!(language, "no-zone-closes-it-whole", place = called));
             let beside =
                 if zones.is_empty() { String::new() } else { format!(" {}", told(&zones)) };
             return Ok(Some(answer(Said::No, &zones, None, open + &beside)));

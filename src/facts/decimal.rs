@@ -7,6 +7,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::units::Fault;
+
 /// A decimal in millionths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Decimal(i64);
@@ -62,8 +64,8 @@ impl Decimal {
 }
 
 /// What is no decimal number of at most six digits after the point within ±9.2 · 10^12.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("не десятичная дробь с шестью знаками после точки")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Fault)]
+#[fault(code = "facts::no_decimal")]
 pub struct NoDecimal;
 
 impl FromStr for Decimal {

@@ -39,7 +39,7 @@ use super::syntax::Span;
 use super::tables::Tables;
 use super::turned::turned;
 use super::word::{NO_WORD, Word, Words};
-use crate::units::Bilingual;
+use crate::units::{Bilingual, Language, told};
 
 /// Calls within calls at most: each takes its part of the stack.
 const MAX_DEPTH: usize = 48;
@@ -421,12 +421,14 @@ impl<'a> Demand<'a> {
             |mask: &Mask| ways.iter().all(|(other, _)| other == mask || other & mask != *other);
         let least = ways.iter().map(|(mask, _)| mask).filter(|mask| is_least(mask));
         let least: Vec<Vec<&str>> = least.map(way).collect();
-        let needs = |and: &str, or: &str| {
-            least.iter().map(|names| names.join(and)).collect::<Vec<_>>().join(or)
+        let needs = |language: Language| {
+            let and = told!(language, "and");
+            let ways: Vec<String> = least.iter().map(|names| names.join(&and)).collect();
+            ways.join(&told!(language, "or"))
         };
         AskError::Blocked {
             relation: info.name.clone(),
-            needs: Bilingual::new(needs(" и ", " или "), needs(" and ", " or ")),
+            needs: Bilingual::both(needs),
             place: at.map(|at| self.program.place(at) + ": ").unwrap_or_default(),
         }
     }

@@ -62,6 +62,7 @@ units::messages!(
     EvaluateError,
     FactError,
     FilesError,
+    NoDecimal,
     RuleError
 );
 
@@ -167,7 +168,7 @@ pub use limits::Limits;
 pub use live::Live;
 pub use outline::{Mark, Meaning, outline};
 pub use program::{Kind, Program};
-pub use proof::{Because, Explainer, FactText, Premise, Proof, ProofStep, RuleInstance};
+pub use proof::{Because, Explainer, FactText, Premise, Proof, ProofStep, RuleInstance, SEE_ABOVE};
 pub use question::FirstName;
 pub use relations::{Column, Parameters, RelationId, RelationInfo};
 pub use syntax::{Aggregation, Comparison};

@@ -21,6 +21,7 @@ use super::syntax::{Comparison, Span};
 use super::turned::turned;
 use super::value;
 use super::word::{NO_WORD, Value, Word, Words};
+use crate::units::{Language, Piece, word};
 
 /// A tuple of a relation, as values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -609,7 +610,10 @@ impl fmt::Display for Premise {
     }
 }
 
-/// As an indented tree. A premise that was shown before is named, not shown again.
+/// Behind a premise that was shown before.
+pub const SEE_ABOVE: Piece = word!("see-above");
+
+/// As an indented tree, in Russian. A premise that was shown before is named, not shown again.
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut was_shown = vec![false; self.steps.len()];
@@ -628,7 +632,10 @@ impl fmt::Display for Proof {
                 Because::Written { source, line } => {
                     writeln!(f, "{indent}{}  ← {source}:{line}", step.fact)?;
                 }
-                Because::Rule { .. } if again => writeln!(f, "{indent}{} (см. выше)", step.fact)?,
+                Because::Rule { .. } if again => {
+                    let above = SEE_ABOVE.say(Language::Russian);
+                    writeln!(f, "{indent}{} ({above})", step.fact)?;
+                }
                 Because::Rule { rule, premises } => {
                     writeln!(f, "{indent}{}  ← {}:{}", step.fact, rule.source, rule.line)?;
                     open.extend(premises.iter().rev().map(|premise| (depth + 1, premise.clone())));

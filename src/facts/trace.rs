@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use super::syntax::Span;
-use crate::units::{Bilingual, InOrder as _, Language};
+use crate::units::{Bilingual, InOrder as _, Language, told};
 
 /// One rule's part in an evaluation; a recursive rule has a line for each premise that it starts with.
 #[derive(Debug, Clone)]
@@ -44,7 +44,7 @@ impl Join {
             told = format!("{told}: {}", size.say(language));
         }
         if self.is_filtered {
-            told += language.pick(", отбор сравнением", ", filtered by a comparison");
+            told += &told!(language, "filtered-by-a-comparison");
         }
         told
     }
@@ -61,17 +61,12 @@ impl RuleTrace {
     #[must_use]
     pub fn say(&self, language: Language) -> String {
         let Self { place, relation, runs, found, .. } = self;
-        let milliseconds = format!("{:.3}", self.time.as_secs_f64() * 1000.0);
-        let mut told = match language {
-            Language::Russian => format!(
-                "{:>10} мс  {relation}  {place}  запусков {runs}, найдено {found}",
-                milliseconds.replace('.', ",")
-            ),
-            Language::English => format!(
-                "{milliseconds:>10} ms  {relation}  {place}  {runs} {}, {found} found",
-                if *runs == 1 { "run" } else { "runs" }
-            ),
+        let milliseconds = format!("{:>10.3}", self.time.as_secs_f64() * 1000.0);
+        let milliseconds = match language {
+            Language::Russian => milliseconds.replace('.', ","),
+            Language::English => milliseconds,
         };
+        let mut told = told!(language, "rule-took", milliseconds, relation, place, runs, found);
         for join in &self.joins {
             let indent = 15 + 2 * join.depth;
             told += &format!("\n{:indent$}{}", "", join.say(language));

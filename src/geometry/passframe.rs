@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use std::fmt;
 
 use crate::map::Permeability;
-use crate::units::{AreaId, DoorId, Language, Point};
+use crate::units::{AreaId, DoorId, Point};
 
 use super::Polygon;
 use super::blocker::Blocker;
@@ -42,19 +42,6 @@ pub enum PassframeKind {
     DeadEnd,
     /// «Проход»: all others.
     Passage,
-}
-
-impl PassframeKind {
-    /// The paper's word.
-    #[must_use]
-    pub fn name(self, language: Language) -> &'static str {
-        match self {
-            Self::Closed => language.pick("Закрытая зона", "Closed zone"),
-            Self::Boundary => language.pick("Граница видимости", "Boundary"),
-            Self::DeadEnd => language.pick("Тупик", "Dead end"),
-            Self::Passage => language.pick("Проход", "Passage"),
-        }
-    }
 }
 
 /// What lies on the other side of a border.

@@ -1,7 +1,5 @@
 //! Plans, and an independent look at whether one works.
 
-use std::fmt;
-
 use crate::strips::{FactId, OperatorId, Task};
 
 /// Parallel steps, each of operators that may be carried out in any order or at once.
@@ -58,28 +56,6 @@ pub enum Flaw {
     Interference { step: usize, deleter: OperatorId, other: OperatorId, fact: FactId },
     /// The plan ends and a part of the goal does not hold.
     Goal { missing: FactId },
-}
-
-impl Flaw {
-    /// The flaw in words.
-    pub fn describe(&self, task: &Task) -> impl fmt::Display {
-        match self {
-            Self::Precondition { step, operator, missing } => format!(
-                "шаг {}: {} – не выполнено предусловие {}",
-                step + 1,
-                task.operator(*operator),
-                task.fact(*missing)
-            ),
-            Self::Interference { step, deleter, other, fact } => format!(
-                "шаг {}: {} убирает {}, на который опирается {}",
-                step + 1,
-                task.operator(*deleter),
-                task.fact(*fact),
-                task.operator(*other)
-            ),
-            Self::Goal { missing } => format!("в конце плана не выполнено {}", task.fact(*missing)),
-        }
-    }
 }
 
 /// Replays a plan from the initial state, step by step; shares no code with the planner.

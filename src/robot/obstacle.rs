@@ -4,7 +4,9 @@
 //! **Invariant**: the surveyed map never has them; nobody can push them, since nobody knows what they are.
 
 use crate::map::{BaseVector, Item, Object, Orthoframe, Permeability, Properties, Replica, World};
-use crate::units::{AreaId, Cm, Deg, Frame, ObjectId, OrFrId, Point, ReplicaId};
+use crate::units::{
+    AreaId, Bilingual, Cm, Deg, Frame, Language, ObjectId, OrFrId, Point, ReplicaId, said,
+};
 
 /// Ids from here downwards are of no map: those of a map are given upwards from 1.
 const LAST_ID: u32 = u32::MAX - 1;
@@ -47,22 +49,19 @@ pub fn stand_obstacle(
             is_base: index == 0,
         });
     }
-    let names = |number: usize| (format!("Препятствие-{number}"), format!("Obstacle {number}"));
-    let is_free = |number: &usize| {
-        let (name, name_en) = names(*number);
-        world.find(&name).is_empty() && world.find(&name_en).is_empty()
-    };
+    let names = |number: usize| in_both(&said!("obstacle-numbered", number));
+    let is_free = |number: &usize| names(*number).iter().all(|name| world.find(name).is_empty());
     // Its place among such things is free, unless the map has a thing of that name.
     let number = ((LAST_ID - own) as usize + 1..).find(is_free)?;
-    let (name, name_en) = names(number);
+    let ([name, name_en], [kind, kind_en]) = (names(number), in_both(&said!("obstacle")));
     let object = ObjectId(own);
     world.objects.insert(
         object,
         Object {
             id: object,
             key: format!("obstacle-{number}"),
-            name: "Препятствие".to_owned(),
-            name_en: "Obstacle".to_owned(),
+            name: kind,
+            name_en: kind_en,
             description: String::new(),
             object_type: None,
             items,
@@ -90,6 +89,11 @@ pub fn stand_obstacle(
         },
     );
     Some(id)
+}
+
+/// The Russian name and the English one.
+fn in_both(name: &Bilingual) -> [String; 2] {
+    [Language::Russian, Language::English].map(|language| name.say(language).to_owned())
 }
 
 /// What [`stand_obstacle`] was told of a thing that stands so: its Area, the pieces and their top.

@@ -25,7 +25,7 @@ use super::sheet::Sheet;
 use super::tables::{self as t, Record, Table, key_of_record};
 use super::trees::{HISTORY, REPLICAS};
 use super::vault::{OpenReport, Vault};
-use super::version::{Stamp, Version};
+use super::version::{Stamp, Version, bad};
 
 /// A store open for writing (or, with [`Store::open_read_only`], for reading).
 pub struct Store {
@@ -119,11 +119,8 @@ impl Store {
         let last = self.vault.trees().last(Table::Revisions.code(), &[], &[0xFF; 4])?;
         if let Some((key, _)) = last {
             let key = Key::from_bytes(&key);
-            let record: t::Revisions = self.reader().record(&key)?.ok_or_else(|| {
-                StoreError::BadRecord {
-                    table: Table::Revisions.name(), key: "последняя".into()
-                }
-            })?;
+            let record = self.reader().record::<t::Revisions>(&key)?;
+            let record = record.ok_or_else(|| bad(Table::Revisions, key.as_bytes()))?;
             self.revision = u64::from(record.revision);
         }
         Ok(())

@@ -58,7 +58,8 @@ impl<'b> VersionHead<'b> {
     }
 }
 
-fn bad(table: Table, key: &[u8]) -> StoreError {
+/// A record whose bytes say nothing.
+pub(super) fn bad(table: Table, key: &[u8]) -> StoreError {
     StoreError::BadRecord { table: table.name(), key: hex(key) }
 }
 

@@ -11,7 +11,7 @@ use super::hint::hint;
 use super::indices::indices;
 use super::phrase::Phrases;
 use super::second::{Second, SecondNames};
-use crate::units::{Bilingual, Language, name_key};
+use crate::units::{Bilingual, Language, name_key, told};
 
 indices! {
     /// A type of objects: помещение, дверь.
@@ -321,11 +321,14 @@ impl Domain {
 
     pub(super) fn kind_names(&self, kinds: &[KindId]) -> Bilingual {
         let name = |kind: &KindId| self.kinds[kind.index()].name.as_str();
-        let english = |kind: &KindId| self.called_kind(name(kind), Language::English);
-        Bilingual::new(
-            kinds.iter().map(name).collect::<Vec<_>>().join(" или "),
-            kinds.iter().map(english).collect::<Vec<_>>().join(" or "),
-        )
+        let called = |kind: &KindId, language| match language {
+            Language::Russian => name(kind),
+            Language::English => self.called_kind(name(kind), language),
+        };
+        Bilingual::both(|language| {
+            let names: Vec<&str> = kinds.iter().map(|kind| called(kind, language)).collect();
+            names.join(&told!(language, "one-or-another"))
+        })
     }
 }
 
@@ -337,17 +340,17 @@ impl Domain {
             let args: Vec<String> = args
                 .iter()
                 .map(|kinds| match kinds.is_empty() {
-                    true => language.pick("объект", "object").to_owned(),
+                    true => told!(language, "any-object"),
                     false => self.kind_names(kinds).say(language).to_owned(),
                 })
                 .collect();
             let place = self.introduced.get(&predicate).map_or_else(String::new, |place| {
                 let (line, column) = place.position();
-                let here = language.pick("как здесь", "as here");
-                format!(", {here}: {}:{line}:{column}", place.source.name())
+                told!(language, "as-here", at = format!("{}:{line}:{column}", place.source.name()))
             });
-            format!("{}: {name}_({}){place}", language.pick("запись", "written"), args.join(", "))
+            let written = format!("{name}_({})", args.join(", "));
+            told!(language, "signature", written, place)
         };
-        Bilingual::new(told(Language::Russian), told(Language::English))
+        Bilingual::both(told)
     }
 }

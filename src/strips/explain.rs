@@ -19,7 +19,7 @@ use super::resolve::ThingId;
 use super::simplify::NO_CASE;
 use super::task::Fact;
 use super::wanted::Wanted;
-use crate::units::{Gather as _, Language, name_key};
+use crate::units::{Gather as _, Language, name_key, told};
 
 /// Why one fact of the goal cannot be reached.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -77,53 +77,25 @@ impl Obstacle {
     pub fn in_words(&self, wording: &Wording<'_>) -> String {
         let language = wording.language;
         let goal = wording.fact(&self.goal);
-        let mut text = language.pick(
-            format!("цель {goal} недостижима"),
-            format!("the goal that {goal} is out of reach"),
-        );
-        if self.goal.name == GOAL_STEP {
-            text = language
-                .pick(
-                    "цель недостижима ни одним из своих способов",
-                    "the goal is out of reach by any of its ways",
-                )
-                .to_owned();
-        }
-        if self.goal.name == NO_CASE {
-            return language
-                .pick(
-                    "цель недостижима: ни один её случай не может сложиться, в каком порядке ни действуй",
-                    "the goal is out of reach: no case of it can come about, in whatever order actions are taken",
-                )
-                .to_owned();
-        }
+        let mut text = match self.goal.name.as_str() {
+            NO_CASE => return told!(language, "no-case-of-the-goal"),
+            GOAL_STEP => told!(language, "goal-by-none-of-its-ways"),
+            _ => told!(language, "goal-out-of-reach", goal),
+        };
         if self.is_unexplained {
-            return text
-                + language.pick(
-                    ": ни при каком порядке действий; условия с «или», «для всех» и «если» по частям не разобраны",
-                    ", in whatever order actions are taken; conditions with “or”, “forall” and “when” are not told apart",
-                );
+            return text + &told!(language, "in-whatever-order");
         }
         if self.is_met_singly {
-            text += language.pick(
-                ": всё, что для неё нужно, достижимо порознь, но не вместе",
-                ": all that it takes can be had one by one, but not together",
-            );
+            text += &told!(language, "one-by-one-not-together");
             if let Some(Clash { action, needs: (a, b) }) = &self.clash {
                 let (action, a, b) = (wording.action(action), wording.fact(a), wording.fact(b));
-                text += &language.pick(
-                    format!("\n  для {action} нужны {a} и {b}, а они исключают друг друга"),
-                    format!(
-                        "\n  for this ({action}) it must be that {a} and that {b}, which exclude each other"
-                    ),
-                );
+                text += "\n  ";
+                text += &told!(language, "needs-exclude-each-other", action, a, b);
             }
             return text;
         }
         if self.missing.is_empty() {
-            return text
-                + language
-                    .pick(": ни одно действие не даёт этого факта", ": no action brings it about");
+            return text + &told!(language, "no-action-brings-it-about");
         }
         for (number, missing) in self.missing.iter().enumerate() {
             text += &missing.in_words(wording);
@@ -133,20 +105,19 @@ impl Obstacle {
         }
         for Missing { fact, action, .. } in &self.circles {
             let (fact, action) = (wording.fact(fact), wording.kind_of_action(action));
-            text += &language.pick(
-                format!("\n  а {action} не поможет: {fact} само требует этого же"),
-                format!("\n  another way ({action}) is no help: that {fact} takes the same itself"),
-            );
+            text += "\n  ";
+            text += &told!(language, "another-way-is-no-help", action, fact);
         }
         if !self.help.is_empty() {
-            let and = language.pick(" и ", " and ");
+            let and = told!(language, "help-and");
             let set = |facts: &Vec<Said>| {
                 let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
-                facts.join(and)
+                facts.join(&and)
             };
             let sets: Vec<String> = self.help.iter().map(set).collect();
-            text += language.pick("\nПомогло бы: ", "\nIt would help if ");
-            text += &sets.join(language.pick(", или ", ", or if "));
+            let sets = sets.join(&told!(language, "help-or"));
+            text += "\n";
+            text += &told!(language, "it-would-help", sets);
         }
         text
     }
@@ -155,20 +126,14 @@ impl Obstacle {
 impl Missing {
     fn in_words(&self, wording: &Wording<'_>) -> String {
         let (fact, action) = (wording.fact(&self.fact), wording.kind_of_action(&self.action));
-        let mut text = match self.action.name == GOAL_STEP {
-            true => wording.language.pick(
-                format!("\n  для этого нужно {fact}"),
-                format!("\n  for this it must be that {fact}"),
-            ),
-            false => wording.language.pick(
-                format!("\n  для этого ({action}) нужно {fact}"),
-                format!("\n  for this ({action}) it must be that {fact}"),
-            ),
+        let mut text = "\n  ".to_owned();
+        text += &match self.action.name == GOAL_STEP {
+            true => told!(wording.language, "for-this", fact),
+            false => told!(wording.language, "for-this-by-an-action", action, fact),
         };
         if !self.now.is_empty() {
             let now: Vec<String> = self.now.iter().map(|fact| wording.fact(fact)).collect();
-            text += wording.language.pick("; сейчас ", "; now ");
-            text += &now.join(", ");
+            text += &told!(wording.language, "now-it-is", now = now.join(", "));
         }
         text
     }
@@ -178,41 +143,21 @@ impl Missing {
         if !self.circle.is_empty() && !is_circle {
             return self.circle.iter().map(|turn| turn.in_words(wording)).collect();
         }
-        let text = match (is_circle, self.has_action) {
-            (true, _) => language.pick(
-                "; а для этого – то, что уже названо: круг замкнут",
-                "; and that takes what was named before: it turns in a circle",
-            ),
-            (false, true) => language.pick(
-                "; это не так, и взяться этому здесь неоткуда",
-                "; it is not so, and nothing here leads to it",
-            ),
-            (false, false) => language.pick(
-                "; это не так, и ни одно действие этого не даёт",
-                "; it is not so, and no action brings it about",
-            ),
-        };
-        text.to_owned()
+        match (is_circle, self.has_action) {
+            (true, _) => told!(language, "that-takes-what-was-named"),
+            (false, true) => told!(language, "nothing-leads-to-it"),
+            (false, false) => told!(language, "it-is-not-so-and-no-action"),
+        }
     }
 }
 
 impl Turn {
     fn in_words(&self, wording: &Wording<'_>) -> String {
         let (language, action) = (wording.language, wording.kind_of_action(&self.action));
-        let gives = language.pick(
-            format!("; это даёт {action}"),
-            format!("; this ({action}) would bring it about"),
-        );
-        let takes = self.takes.as_ref().map(|fact| wording.fact(fact));
-        let takes = match takes {
-            Some(fact) => language
-                .pick(format!(", но для этого нужно {fact}"), format!(", and takes that {fact}")),
-            None => language
-                .pick(
-                    ", но для этого нужно то, что уже названо: круг замкнут",
-                    ", and takes what was named before: it turns in a circle",
-                )
-                .to_owned(),
+        let gives = told!(language, "this-would-bring-it-about", action);
+        let takes = match self.takes.as_ref().map(|fact| wording.fact(fact)) {
+            Some(fact) => told!(language, "and-takes", fact),
+            None => told!(language, "and-takes-what-was-named"),
         };
         gives + &takes
     }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::fmt;
 
 use super::task::{Fact, Operator};
-use crate::units::{Language, name_key};
+use crate::units::{Language, name_key, told};
 
 /// Text with places for arguments.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,8 +84,8 @@ impl Wording<'_> {
         }
         match facts.get(&(key, !fact.negated)) {
             Some(phrase) => {
-                let head = self.language.pick("неверно, что", "it is not so that");
-                format!("{head} {}", self.filled(phrase, &fact.args))
+                let fact = self.filled(phrase, &fact.args);
+                told!(self.language, "it-is-not-so-that", fact)
             }
             None => fact.written(self.language),
         }
@@ -127,8 +127,8 @@ impl Wording<'_> {
             .map(|kind| self.language.pick(kind.clone(), format!("{} {kind}", article(&kind))))
             .collect();
         match told.is_empty() {
-            true => self.language.pick("что-нибудь", "something").to_owned(),
-            false => told.join(self.language.pick(" или ", " or ")),
+            true => told!(self.language, "something"),
+            false => told.join(&told!(self.language, "one-or-another")),
         }
     }
 }

@@ -164,7 +164,6 @@ name-wanted = a name or a word is needed: ortho words "Desk"
 
 records = { $created } records created, { $changed } changed, { $deleted } deleted
 rooms-of-log = { $path }: { $rooms } rooms, { $doors } doorways, { $things } things.
-see-above = see above
 picture = Picture: { $segments ->
         [one] 1 segment
        *[other] { $segments } segments

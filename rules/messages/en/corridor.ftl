@@ -106,3 +106,40 @@ an-integer = an integer
 one-of-the-words = one of the words: { $words }
 at-the-goal = The robot is at its goal already.
 no-numbers = none
+
+# What one does along a corridor: as an entry of a table and as a sentence.
+
+face-right = stand along the corridor with the door on the right
+face-left = stand along the corridor with the door on the left
+face-ahead = stand with your back to the door
+to-junction = drive to the corridor junction
+take-straight = go straight on
+take-right = turn right
+take-left = turn left
+take-nth = take the { $nth } corridor from the right
+to-door-right = drive to the door on the right
+to-door-left = drive to the door on the left
+to-door-ahead = drive to the door straight ahead
+u-turn = make a U-turn
+stand-right = Stand along the corridor with the door on the right.
+stand-left = Stand along the corridor with the door on the left.
+stand-ahead = Stand with your back to the door.
+drive-to-junction = Drive to the corridor junction.
+drive-past-entrances = Drive past { $passed } { $passed ->
+        [one] entrance
+       *[other] entrances
+    } to the corridor junction.
+drive-to-entrance = Drive to the { $nth } entrance, the door { $side ->
+        [right] on the right
+        [left] on the left
+       *[ahead] straight ahead
+    }.
+go-straight = Go straight on.
+turn-right = Turn right.
+turn-left = Turn left.
+turn-nth = Take the { $nth } corridor from the right.
+make-u-turn = Make a U-turn.
+
+# What an entrance is called that has neither a door nor a name.
+
+exit = Exit

@@ -427,3 +427,33 @@ operator-dative = the operator
 operator-accusative = the operator
 put-down = put { $thing } down
 give-to = give { $thing } to { $person }
+
+# What is not: a way, a zone, what was begun; and what a plan rests on.
+
+to-room = to { $room }
+only-stairs-lead = Only stairs lead { $to }, and the robot cannot climb them.
+neither-door-nor-lift-leads = Neither door nor lift leads { $to }.
+neither-door-nor-passage-leads = Neither door nor passage leads { $to }.
+take-the-lift = Take the lift “{ $lift }” { $way ->
+        [up] {"up "}
+        [down] {"down "}
+       *[level] {""}
+    }{ $to }.
+nothing-was-begun = Nothing was begun, because of "{ $part }". { $why }
+i-am-waiting = I am waiting.
+i-never-left = I have not been sent anywhere yet. Say where to go.
+where-are-you = Where are you?
+there-is-a-way = One can: there is a way to { $place }.
+no-zone-closes-it-whole = No zone closes the whole of { $place } now.
+door-open = { $door } is open
+lift-works = { $lift } works
+cabin-stands = the cabin of { $lift } stands { $at }
+may-be-there = { $thing } may be { $place }
+it-is-not-so-that = it is not so that
+
+# What a Passframe can be.
+
+closed-zone = Closed zone
+boundary = Boundary
+dead-end = Dead end
+passage = Passage

@@ -238,3 +238,12 @@ relation-by = { $name } by { $key }
 relation-in-part = { $relation }: { $part }
 or = {" or "}
 not = {"not "}
+
+facts-no-decimal = no decimal number of at most six digits after the point
+and = {" and "}
+see-above = see above
+filtered-by-a-comparison = , filtered by a comparison
+rule-took = { $milliseconds } ms  { $relation }  { $place }  { $runs } { $runs ->
+        [1] run
+       *[other] runs
+    }, { $found } found

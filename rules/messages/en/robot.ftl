@@ -88,3 +88,8 @@ goal-alone = {"  "}the goal that { $goal } takes { $steps ->
     } alone
 
 cmd-or-tcp-is-wanted = cmd:COMMAND or tcp:HOST:PORT is wanted
+
+# What is seen and is not on the map is called so.
+
+obstacle = Obstacle
+obstacle-numbered = Obstacle { $number }

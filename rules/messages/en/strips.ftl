@@ -201,3 +201,35 @@ define-form = “(define …)”
 opening-bracket = “(”
 keep-one = keep one of the two{ $elsewhere }
 rename-one = rename or remove one of the two{ $elsewhere }
+
+# Why a goal is out of reach.
+
+goal-out-of-reach = the goal that { $goal } is out of reach
+goal-by-none-of-its-ways = the goal is out of reach by any of its ways
+no-case-of-the-goal = the goal is out of reach: no case of it can come about, in whatever order actions are taken
+in-whatever-order = , in whatever order actions are taken; conditions with “or”, “forall” and “when” are not told apart
+one-by-one-not-together = : all that it takes can be had one by one, but not together
+needs-exclude-each-other = for this ({ $action }) it must be that { $a } and that { $b }, which exclude each other
+no-action-brings-it-about = : no action brings it about
+another-way-is-no-help = another way ({ $action }) is no help: that { $fact } takes the same itself
+it-would-help = It would help if { $sets }
+help-and = {" and "}
+help-or = {", or if "}
+for-this = for this it must be that { $fact }
+for-this-by-an-action = for this ({ $action }) it must be that { $fact }
+now-it-is = ; now { $now }
+that-takes-what-was-named = ; and that takes what was named before: it turns in a circle
+nothing-leads-to-it = ; it is not so, and nothing here leads to it
+it-is-not-so-and-no-action = ; it is not so, and no action brings it about
+this-would-bring-it-about = ; this ({ $action }) would bring it about
+and-takes = , and takes that { $fact }
+and-takes-what-was-named = , and takes what was named before: it turns in a circle
+
+# Facts, kinds and predicates.
+
+it-is-not-so-that = it is not so that { $fact }
+something = something
+one-or-another = {" or "}
+any-object = object
+as-here = , as here: { $at }
+signature = written: { $written }{ $place }

@@ -164,7 +164,6 @@ name-wanted = нужно имя или слово: ortho words "Письменн
 
 records = записей создано { $created }, изменено { $changed }, удалено { $deleted }
 rooms-of-log = { $path }: помещений { $rooms }, проходов { $doors }, предметов { $things }.
-see-above = см. выше
 picture = Картинка: отрезков { $segments }
 scan-of = Скан { $scan } из { $scans }, строка { $line }: лучей { $beams }, вернулось { $returns }, отрезков { $segments }
 things-joined = Вещей { $things }, сканов соединено { $scans }

@@ -425,3 +425,38 @@ operator-dative = оператору
 operator-accusative = оператора
 put-down = положить { $thing } на пол
 give-to = передать { $thing } { $person }
+
+# Чего нет: пути, зоны, начатого; и на чём держится план.
+
+to-room = в { $room }
+only-stairs-lead = { $to } ведёт только лестница, а по ней роботу не проехать.
+neither-door-nor-lift-leads = { $to } не ведёт ни дверь, ни лифт.
+neither-door-nor-passage-leads = { $to } не ведёт ни дверь, ни проход.
+take-the-lift = { $way ->
+        [up] Поднимитесь
+        [down] Спуститесь
+       *[level] Проезжайте
+    } на лифте «{ $lift }» { $to }.
+nothing-was-begun = Ничего не начато из-за слов «{ $part }». { $why }
+i-am-waiting = Жду.
+i-never-left = Я ещё никуда не уезжал. Скажите, куда ехать.
+where-are-you = Где ты?
+there-is-a-way = Можно: путь туда есть ({ $place }).
+no-zone-closes-it-whole = { $place }: целиком этого сейчас никакая зона не закрывает.
+door-open = { $door } { $agrees ->
+        [masculine] открыт
+        [feminine] открыта
+        [neuter] открыто
+       *[plural] открыты
+    }
+lift-works = { $lift } работает
+cabin-stands = кабина { $lift } стоит { $at }
+may-be-there = { $thing } может быть { $place }
+it-is-not-so-that = неверно, что
+
+# Каким бывает пассфрейм.
+
+closed-zone = Закрытая зона
+boundary = Граница видимости
+dead-end = Тупик
+passage = Проход

@@ -238,3 +238,9 @@ relation-by = { $name } по { $key }
 relation-in-part = { $relation }: { $part }
 or = {" или "}
 not = {"не "}
+
+facts-no-decimal = не десятичная дробь с шестью знаками после точки
+and = {" и "}
+see-above = см. выше
+filtered-by-a-comparison = , отбор сравнением
+rule-took = { $milliseconds } мс  { $relation }  { $place }  запусков { $runs }, найдено { $found }

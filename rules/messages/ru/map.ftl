@@ -299,3 +299,83 @@ a-moment-is-written-like-this-2026 = время пишется так: 2026-11-2
 area-side-or-area-part-side = «помещение.сторона» или «помещение.часть.сторона»
 radius-too-small = radius { $radius } его не покрывает, нужно не меньше { $reach } (или уберите radius)
 or = {" или "}
+
+# Что говорит о записи TOML её разбор: по английскому тексту оно и узнаётся, его не меняют.
+
+notation-expected = { $wrong }; ожидается { $expected }
+notation-underscore-may-only-go-between-digits = знак `_` может стоять только между цифрами
+notation-cannot-extend-value-of-type-array-with-a-dotted-key = к списку не прибавляют поля через точку
+notation-cannot-extend-value-of-type-inline-table-with-a-dotted-key = к таблице в скобках не прибавляют поля через точку
+notation-cannot-recurse-further-max-recursion-depth-met = слишком глубокая вложенность
+notation-carriage-return-must-be-followed-by-newline = после CR должен идти перевод строки
+notation-duplicate-key = ключ дан дважды
+notation-extra-equals = лишний знак `=`
+notation-extra-assignment-between-key-value-pairs = лишний знак `=`
+notation-extra-comma-in-array = лишняя запятая в списке
+notation-extra-comma-in-inline-table = лишняя запятая в таблице
+notation-integers-with-a-radix-cannot-be-signed = перед 0x, 0o и 0b знак не ставят
+notation-invalid-basic-string = строка в кавычках не закрыта или записана неверно
+notation-invalid-binary-number = неверное двоичное число
+notation-invalid-boolean = ожидается true или false
+notation-invalid-comment-character = недопустимый знак в примечании
+notation-invalid-date-time = неверная запись времени
+notation-invalid-exponent = неверная степень числа
+notation-invalid-float = неверная запись числа
+notation-invalid-fraction = неверная дробная часть
+notation-invalid-hexadecimal-number = неверное шестнадцатеричное число
+notation-invalid-inline-table-element = непонятный элемент таблицы
+notation-invalid-integer-number = неверная запись целого числа
+notation-invalid-key = непонятный ключ
+notation-invalid-key-value-pair = строка не имеет вида «ключ = значение»
+notation-invalid-literal-string = строка в апострофах не закрыта или записана неверно
+notation-invalid-mantissa = неверная запись числа
+notation-invalid-multi-line-basic-string = многострочный текст не закрыт или записан неверно
+notation-invalid-multi-line-literal-string = многострочный текст не закрыт или записан неверно
+notation-invalid-octal-number = неверное восьмеричное число
+notation-invalid-string = строка записана неверно
+notation-invalid-table = неверный заголовок таблицы
+notation-invalid-unquoted-key = недопустимый ключ; русские ключи берут в кавычки
+notation-invalid-value = недопустимое значение
+notation-key-with-no-value = ключ без значения
+notation-keys-cannot-be-multi-line-basic-strings = ключ не может занимать несколько строк
+notation-keys-cannot-be-multi-line-literal-strings = ключ не может занимать несколько строк
+notation-missing-array-opening = не хватает открывающей скобки списка
+notation-missing-assignment-between-key-value-pairs = не хватает знака `=`
+notation-missing-comma-between-array-elements = не хватает запятой между элементами списка
+notation-missing-comma-between-key-value-pairs = не хватает запятой между полями
+notation-missing-escaped-value = не хватает знака после `\`
+notation-missing-inline-table-opening = не хватает открывающей скобки таблицы
+notation-missing-key-for-inline-table-element = не хватает ключа
+notation-missing-opening-quote = не хватает открывающей кавычки
+notation-missing-value-for-key = не хватает значения
+notation-missing-value = не хватает значения
+notation-radix-must-be-lowercase = 0x, 0o и 0b пишут строчными
+notation-recursion-limit = слишком глубокая вложенность
+notation-redundant-integer-number-prefix = лишняя приставка числа
+notation-redundant-numeric-sign = лишний знак числа
+notation-string-values-must-be-quoted = текст берут в кавычки
+notation-too-few-unicode-value-digits = не хватает цифр в коде знака
+notation-unclosed-array-table = не закрыт заголовок списка таблиц
+notation-unclosed-array = не закрыт список
+notation-unclosed-inline-table = не закрыта таблица
+notation-unclosed-table = не закрыт заголовок таблицы
+notation-unexpected-equals-in-array = знак `=` в списке
+notation-unexpected-content-between-comment-and-newline = лишнее в конце строки
+notation-unexpected-content = лишнее
+notation-unexpected-key-or-value = лишний ключ или лишнее значение
+notation-unexpected-leading-zero = лишний ноль в начале числа
+notation-unexpected-sign = лишний знак числа
+notation-unquoted-keys-cannot-be-empty = пустой ключ берут в кавычки
+expected-basic-string = строка в кавычках
+expected-literal-string = строка в апострофах
+expected-multi-line-basic-string = многострочный текст
+expected-characters = знаки
+expected-digits = цифры
+expected-key = ключ
+expected-letters = латинские буквы
+expected-numbers = цифры
+expected-printable-characters = печатные знаки
+expected-non-double-quote-visible-characters = знаки, кроме кавычек
+expected-non-single-quote-visible-characters = знаки, кроме апострофов
+expected-unicode-hexadecimal-value = шестнадцатеричный код знака
+expected-value = значение

@@ -87,3 +87,8 @@ goal-alone = {"  "}цель { $goal } одна требует: { $steps ->
     }
 
 cmd-or-tcp-is-wanted = нужно cmd:КОМАНДА или tcp:УЗЕЛ:ПОРТ
+
+# Что видно, а на карте нет, зовётся так.
+
+obstacle = Препятствие
+obstacle-numbered = Препятствие-{ $number }

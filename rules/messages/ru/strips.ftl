@@ -198,3 +198,35 @@ define-form = «(define …)»
 opening-bracket = «(»
 keep-one = оставьте одно из двух{ $elsewhere }
 rename-one = переименуйте или уберите одно из двух{ $elsewhere }
+
+# Почему цель недостижима.
+
+goal-out-of-reach = цель { $goal } недостижима
+goal-by-none-of-its-ways = цель недостижима ни одним из своих способов
+no-case-of-the-goal = цель недостижима: ни один её случай не может сложиться, в каком порядке ни действуй
+in-whatever-order = : ни при каком порядке действий; условия с «или», «для всех» и «если» по частям не разобраны
+one-by-one-not-together = : всё, что для неё нужно, достижимо порознь, но не вместе
+needs-exclude-each-other = для { $action } нужны { $a } и { $b }, а они исключают друг друга
+no-action-brings-it-about = : ни одно действие не даёт этого факта
+another-way-is-no-help = а { $action } не поможет: { $fact } само требует этого же
+it-would-help = Помогло бы: { $sets }
+help-and = {" и "}
+help-or = {", или "}
+for-this = для этого нужно { $fact }
+for-this-by-an-action = для этого ({ $action }) нужно { $fact }
+now-it-is = ; сейчас { $now }
+that-takes-what-was-named = ; а для этого – то, что уже названо: круг замкнут
+nothing-leads-to-it = ; это не так, и взяться этому здесь неоткуда
+it-is-not-so-and-no-action = ; это не так, и ни одно действие этого не даёт
+this-would-bring-it-about = ; это даёт { $action }
+and-takes = , но для этого нужно { $fact }
+and-takes-what-was-named = , но для этого нужно то, что уже названо: круг замкнут
+
+# Факты, виды и предикаты.
+
+it-is-not-so-that = неверно, что { $fact }
+something = что-нибудь
+one-or-another = {" или "}
+any-object = объект
+as-here = , как здесь: { $at }
+signature = запись: { $written }{ $place }

@@ -6,6 +6,7 @@ use crate::language::Language;
 use crate::language::command::{Command, Misheard};
 use crate::language::question::{Conditional, Thing, hinged};
 use crate::map::Entity;
+use crate::units::told;
 
 use super::{Event, Given, Hearing, Outcome};
 
@@ -62,7 +63,6 @@ impl Hearing<'_, '_> {
                 };
             }
         };
-        let pick = |russian, english| language.pick(russian, english);
         match &commands[..] {
             // "Never mind the plates, where are the forks?"
             [Command::Stop] if let Some(asked) = asked_behind(line) => {
@@ -72,17 +72,15 @@ impl Hearing<'_, '_> {
                 self.hear_one(asked, false)
             }
             [Command::Stop] => self.stop(awaited, language),
-            [Command::Wait] => self.put(Outcome::Waiting, pick("Жду.", "I am waiting."), language),
+            [Command::Wait] => {
+                self.put(Outcome::Waiting, &told!(language, "i-am-waiting"), language)
+            }
             [Command::ComeBack] => {
-                let text = pick(
-                    "Я ещё никуда не уезжал. Скажите, куда ехать.",
-                    "I have not been sent anywhere yet. Say where to go.",
-                );
-                self.put(Outcome::NeverLeft, text, language)
+                self.put(Outcome::NeverLeft, &told!(language, "i-never-left"), language)
             }
             [Command::Report] => {
-                let asked = pick("Где ты?", "Where are you?");
-                let text = match self.engine.ask(asked, &mut self.dialogue.memory)? {
+                let asked = told!(language, "where-are-you");
+                let text = match self.engine.ask(&asked, &mut self.dialogue.memory)? {
                     Ok(answer) => answer.text,
                     Err(unanswered) => unanswered.text,
                 };

@@ -139,7 +139,7 @@ impl<'de> Deserialize<'de> for At {
         impl<'de> Visitor<'de> for Seq {
             type Value = At;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("две координаты")
+                f.write_str("two coordinates")
             }
             fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<At, A::Error> {
                 let missing = || serde::de::Error::invalid_length(0, &self);

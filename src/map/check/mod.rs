@@ -207,6 +207,7 @@ impl std::fmt::Display for Short {
     }
 }
 
+/// What an area is called; by its number where the map has none of it.
 fn area_title(world: &World, area: crate::units::AreaId) -> String {
-    world.areas.get(&area).map_or_else(|| format!("помещение {}", area.0), |a| a.name.clone())
+    world.areas.get(&area).map_or_else(|| area.0.to_string(), |a| a.name.clone())
 }

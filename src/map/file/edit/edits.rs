@@ -13,7 +13,7 @@ use super::verbs::{self, Edit, NewRecord, RobotSaid};
 use super::word::{Done, Slips, misprint, text_of, unknown_field, wrong_kind};
 use crate::TypeKind;
 use crate::fault::MapError;
-use crate::units::{Source, name_key, said, word};
+use crate::units::{OwnText, Source, name_key, said, word};
 
 /// Edits that make one transaction.
 ///
@@ -162,7 +162,7 @@ impl From<Vec<Edit>> for Edits {
                 })),
             }
         }
-        Self { told, misprints, is_one_step, ..Self::of_source(Source::new("правка", text)) }
+        Self { told, misprints, is_one_step, ..Self::of_source(Source::own(OwnText::Edit, text)) }
     }
 }
 
