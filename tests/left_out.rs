@@ -44,6 +44,41 @@ fn rooms(engine: &Engine) -> Vec<String> {
     engine.world().unwrap().areas.values().map(|area| area.name_en.clone()).collect()
 }
 
+/// "Where are the keys, but not the ones in the bedroom?", "Where are the keys not in the bedroom?": all but those, and never
+/// those themselves, nor rooms without any.
+#[test]
+fn what_a_place_leaves_out_is_left_out() {
+    let mut told = 0;
+    for map in MAPS {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        for ((kind, _), things) in several_of_a_kind(&engine).iter().take(12) {
+            for area in world.areas.values() {
+                let own = |name: &&String| {
+                    world.replicas.values().any(|r| r.name_en == **name && r.area != area.id)
+                };
+                let rest: BTreeSet<&String> = things.iter().filter(own).collect();
+                if rest.is_empty() || rest.len() == things.len() {
+                    continue;
+                }
+                let room = area.name_en.to_lowercase();
+                for line in [
+                    format!("Where are the {kind}s, but not the ones in the {room}?"),
+                    format!("Where are the {kind}s, just not those in the {room}?"),
+                    format!("Where are the {kind}s not in the {room}?"),
+                ] {
+                    let Some(found) = ask(&engine, &line) else { continue };
+                    let named = found.things.iter().filter_map(|thing| thing.replica());
+                    let named = named.map(|id| &world.replicas[&id].name_en).collect();
+                    assert_eq!(rest, named, "{line}: {}", found.text);
+                    told += 1;
+                }
+            }
+        }
+    }
+    assert!(told > 20, "{told}");
+}
+
 /// "How many books are there besides Book 1 and Book 2?": both are left out, and the rest is counted once.
 #[test]
 fn what_is_left_out_is_left_out_at_once() {
