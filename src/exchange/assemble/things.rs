@@ -92,7 +92,10 @@ impl Maker<'_> {
         let id = ObjectId(self.world.objects.len() as u32 + 1);
         let words = names::words(&kind.word);
         let (name, name_en) = match &meaning {
-            Some(m) => (m.name.clone(), m.name_en.clone()),
+            Some(m) => {
+                let words = words.to_lowercase();
+                (m.name.clone(), own_words(&words, m).unwrap_or(&m.name_en).to_owned())
+            }
             None if words.is_empty() => ("Предмет".to_owned(), "thing".to_owned()),
             None => (words.clone(), words),
         };
@@ -269,7 +272,8 @@ impl Maker<'_> {
         let object = &self.world.objects[&made.object];
         let known = self.synonyms.find(Vocabulary::Object, &name);
         if name.is_empty() || known.is_some() || name == object.properties[SOURCE] {
-            let (ru, en) = (object.name.clone(), capitalized(&object.name_en));
+            let en = made.meaning.as_ref().map_or(&object.name_en, |meaning| &meaning.name_en);
+            let (ru, en) = (object.name.clone(), capitalized(en));
             return self.names.numbered(&ru, &en);
         }
         let name_en = if names::is_russian(&name) { String::new() } else { name.clone() };
@@ -331,6 +335,13 @@ impl Maker<'_> {
         // A number of ours would hide the name that people know the place by.
         self.names.unique(&format!("{ru} {name}"), &name)
     }
+}
+
+/// The file's words for a kind, where they tell of which sort of its meaning it is: "nurse desk" of a desk.
+fn own_words<'w>(words: &'w str, meaning: &Meaning) -> Option<&'w str> {
+    let sort = words.strip_suffix(&*meaning.name_en)?.strip_suffix(' ')?;
+    let is_plain = sort.chars().all(|c| c.is_ascii_lowercase() || c == ' ');
+    (is_plain && !sort.trim().is_empty()).then_some(words)
 }
 
 fn usual_move_prob(made: &Made) -> u8 {

@@ -208,6 +208,15 @@ impl Lexicon {
                 let phrase = NounPhrase::parse(&object.name, &WordHints::default());
                 lexicon.add(Extension::Object(object.id), &phrase, &object.name_en, false);
             }
+            // A "nurse desk" is a sort of desk, which Russian has no word of its own for.
+            let kind = world.types.object.get(object.object_type);
+            let own = name_key(&object.name_en);
+            let is_own = kind.is_some_and(|kind| name_key(&kind.name_en) != own);
+            if is_own && !own.is_empty() && !lexicon.own_english.contains(&own) {
+                let phrase = NounPhrase::parse(&object.name, &WordHints::default());
+                let id = lexicon.push(Extension::Object(object.id), phrase, &object.name_en);
+                lexicon.nouns.insert_english(&object.name_en, Meaning::Kind(id));
+            }
         }
         lexicon.add_concepts(world);
         lexicon.add_building(world);
