@@ -279,10 +279,15 @@ impl Memory {
         self.spoken.truncate(50);
     }
 
-    /// Notes what a command is done to, and whither it goes: "there" afterwards, and «на нём» of what may bear things.
-    pub fn order(&mut self, things: &[Thing], places: &[Thing]) {
+    /// Notes what a command is done to, on or in what that is before it, and whither it goes: "there" afterwards, and «на нём» of
+    /// what may bear things.
+    pub fn order(&mut self, things: &[Thing], whence: &[Thing], places: &[Thing]) {
         self.mention(things);
         self.is_plural = things.len() > 1;
+        if let Some(exchange) = self.exchanges.first_mut().filter(|_| !things.is_empty()) {
+            let others = whence.iter().filter(|place| !things.contains(place));
+            exchange.aside.extend(others);
+        }
         let Some(place) = places.last() else { return };
         self.told_place = Some(*place);
         let own = places.iter().rev().filter(|place| !things.contains(place));
@@ -432,7 +437,8 @@ pub(super) struct Exchange {
     whither: Option<Thing>,
     /// What was measured against each other: each is "the other one" of the rest.
     compared: Vec<Thing>,
-    /// What a list was asked after by: "it" is no such thing, but what lies on something may be on that.
+    /// What a list was asked after by, and what bore what an order takes: "it" is no such thing, but what lies on something may be
+    /// on that.
     aside: Vec<Thing>,
 }
 

@@ -10,6 +10,7 @@
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
 mod governed;
+mod leading;
 mod measures;
 mod modifier;
 mod nearest;
