@@ -24,6 +24,8 @@ pub struct Memory {
     pub(super) exchanges: Vec<Exchange>,
     /// Whether what was spoken of last was called by a plural: «таблетки» may be one thing.
     pub(super) is_plural: bool,
+    /// Whether the one thing that was spoken of last is all that a plural names: "them" are none of a list in which it was told.
+    pub(super) is_whole: bool,
     /// The place that a person has told before asking of "there".
     pub(super) told_place: Option<Thing>,
     /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
@@ -563,7 +565,7 @@ impl Memory {
     }
 
     fn follow(&mut self, exchange: Exchange) {
-        self.is_lost = false;
+        (self.is_lost, self.is_whole) = (false, false);
         if !exchange.is_empty() {
             self.exchanges.insert(0, exchange);
             self.exchanges.truncate(RECENT);

@@ -452,7 +452,13 @@ impl<'t> Sentence<'t> {
                         noun.head.named.clear();
                     }
                 }
-                Modifier::Other => noun.other = true,
+                // "The other bedroom": of the kind, though one room is called so.
+                Modifier::Other => {
+                    noun.other = true;
+                    if !noun.head.kinds.is_empty() {
+                        noun.head.named.clear();
+                    }
+                }
                 Modifier::Same => noun.same = true,
                 // Of two numbers, or two orders, one would be forgotten.
                 Modifier::Number(_) if noun.count.is_some() => return fail(input),

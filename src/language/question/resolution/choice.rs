@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::{Clause, Resolver};
+use super::Resolver;
+use crate::command::Sort;
 use crate::question::Doubt;
 use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
-use crate::question::mark::Mark;
 use crate::question::memory::Exchange;
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::sets::set;
@@ -317,15 +317,11 @@ impl Resolver<'_, '_> {
         there.next().filter(|_| there.next().is_none() && !noun.counts_several())
     }
 
-    /// "Go to the living room. – Go to the TV stand there": the room that the words point at, which was spoken of last or is the
-    /// robot's own; "that stand" is the one there, where none was spoken of.
-    pub(super) fn room_pointed_at(&self, clause: &Clause<'_>, phrase: &Phrase) -> Option<AreaId> {
-        let said = |all: &[&str]| self.sentence.keys.iter().any(|key| all.contains(&key.as_str()));
-        if said(set!("HereWord")) {
-            return self.here();
-        }
-        let there = |(_, phrase): &(usize, &Phrase)| matches!(phrase.person, Some(Mark::There));
-        let points = clause.objects.iter().any(there) || said(set!("ThereWord"));
+    /// "Go to the living room. – Go to the TV stand there": the room of which was spoken last, where the words point at it; "that
+    /// stand" is the one there, where none was spoken of.
+    pub(super) fn room_pointed_at(&self, sort: Sort, phrase: &Phrase) -> Option<AreaId> {
+        let there = |key: &String| set!("ThereWord").contains(&key.as_str());
+        let points = sort == Sort::Go && self.sentence.keys.iter().any(there);
         let found = || self.knowledge.find(&phrase.noun, true).unwrap_or_default();
         let is_shown = is_shown(&phrase.noun) && self.knowledge.in_focus(&found()).is_none();
         let topic = self.knowledge.memory.exchanges.first().and_then(Exchange::topic);

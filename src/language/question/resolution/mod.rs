@@ -453,7 +453,7 @@ impl Resolver<'_, '_> {
             Some(goal) => {
                 let spot = own.remove(goal);
                 let room = told.carried_to.or(told.gone_to);
-                let room = room.or_else(|| self.room_pointed_at(clause, spot.phrase));
+                let room = room.or_else(|| self.room_pointed_at(sort, spot.phrase));
                 match self.whither(spot, &mut own, sort, room, edits) {
                     // «На зарядку», where there are several: the robot goes to the nearest.
                     Err((Doubt::Ambiguous { .. }, _))
