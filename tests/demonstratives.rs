@@ -304,3 +304,41 @@ fn one_of_them_is_one_of_all_that_were_told() {
     }
     assert!(told > 5, "{told}");
 }
+
+/// "What is next to the stand in the hall? The one in the bedroom – what is on it?": on the one that is named last.
+#[test]
+fn what_is_named_before_a_question_is_what_it_asks_of() {
+    let mut told = 0;
+    for engine in maps() {
+        let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+        for (_, on) in borne(&engine) {
+            let Some((_, english)) = kind_of(world, on) else { continue };
+            let Some(room) = relations.area_of(on) else { continue };
+            let room = &world.areas[&room].name_en;
+            let alike = |id: &&ReplicaId| {
+                **id != on && kind_of(world, **id).is_some_and(|(_, name)| name == english)
+            };
+            let Some(other) = world.replicas.keys().find(alike) else { continue };
+            let [name, other] = [&on, other].map(|id| &world.replicas[id].name_en);
+            let Some(plain) = last(&engine, &[&format!("What is on {name}?")]) else { continue };
+            for lines in [
+                [
+                    format!("Where are the {}?", english::plural(&english)),
+                    format!("What is next to {other}?"),
+                    format!("The one in {room} – what is on it?"),
+                ],
+                [
+                    format!("Where is {other}?"),
+                    format!("What is next to {other}?"),
+                    format!("The {english} in {room} – what is on it?"),
+                ],
+            ] {
+                let answer = last(&engine, &[&lines[0], &lines[1], &lines[2]]);
+                let Some(answer) = answer else { continue };
+                assert_eq!(found(&answer), found(&plain), "{lines:?} {}", answer.text);
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 3, "{told}");
+}

@@ -326,6 +326,13 @@ impl Memory {
         }
     }
 
+    /// All that the last answer or order was about, and the last list.
+    pub(super) fn told_of(&self) -> Vec<Thing> {
+        let latest = self.exchanges.first().into_iter().flat_map(Exchange::things);
+        let all: BTreeSet<Thing> = latest.chain(&self.listed).chain(&self.last).copied().collect();
+        all.into_iter().collect()
+    }
+
     /// What was spoken of by itself since the last list, the earliest first.
     pub(super) fn in_turn(&self, fits: impl Fn(&Thing) -> bool) -> Vec<Thing> {
         let told = |thing: &Thing| self.listed.contains(thing);

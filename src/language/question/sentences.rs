@@ -265,12 +265,15 @@ impl Asker<'_> {
         memory: &mut Memory,
     ) -> Option<Result<Answer, Unanswered>> {
         let mut parts = several::sentences(text.get(..Self::LONGEST * 2).unwrap_or(text));
+        let mut is_topic = false;
         // "I'm on the sofa, what's the nearest bin?"
         if let [only] = parts[..]
             && let Some((told, asked)) = only.split_once([',', ';', '–', '—'])
-            && (self.premise(told).is_some() || self.is_topic(told, asked))
         {
-            parts = vec![told.trim(), asked.trim()];
+            is_topic = self.is_topic(told, asked);
+            if is_topic || self.premise(told).is_some() {
+                parts = vec![told.trim(), asked.trim()];
+            }
         }
         // "Is the machine on? I can't see it from here.": what is only told stands behind.
         let whole = parts.len();
@@ -325,6 +328,8 @@ impl Asker<'_> {
                 }
                 _ => {
                     self.hear_of(part, &mut after);
+                    // "What is next to Table 2? The table in the hall – what is on it?" goes on from no question.
+                    after.query = after.query.take().filter(|_| !is_topic);
                     if self.is_astray(part) {
                         Self::lose_person(part, &mut after);
                     }
@@ -473,7 +478,7 @@ impl Asker<'_> {
                 Item::Noun(phrase) if points(&phrase.noun) && !is_shown(&phrase.noun) => {
                     let told = match phrase.noun.other {
                         true => self.others_of_last(memory),
-                        false => Some(Noun::of(memory.listed.clone())),
+                        false => Some(Noun::of(memory.told_of())),
                     };
                     let told = told
                         .filter(|told| told.head.things.as_ref().is_some_and(|t| !t.is_empty()));
