@@ -377,8 +377,8 @@ impl Asker<'_> {
                     _ => Answer::joined(answers, language),
                 }))
             }
-            // Where the person is was told, and is not known.
-            Err(unanswered) if after.astray.is_some() => {
+            // Where the person is was told, and is not known; or what is named means nothing that was told.
+            Err(unanswered) if after.astray.is_some() || is_topic && after.is_lost => {
                 *memory = after;
                 Some(Err(unanswered))
             }
