@@ -23,6 +23,7 @@ mod corridor_floors;
 mod corridor_lattice;
 mod counted_before;
 mod datalog_files;
+mod demonstratives;
 mod denials;
 mod dialogue;
 mod disputed;

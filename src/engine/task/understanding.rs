@@ -225,7 +225,12 @@ impl State {
         let carried = commands.iter().filter(|command| !going(command));
         let places = carried.filter_map(Command::place).map(|place| Thing::Entity(place.anchor));
         if !named.is_empty() {
-            memory.order(&named, &places.collect::<Vec<_>>());
+            // "What is left on that stand?" is asked when nothing of it lies there any more.
+            let relations = self.around()?.relations()?;
+            let support = |thing: &Thing| relations.support_of(thing.replica()?);
+            let whence = named.iter().filter_map(support).map(Entity::Replica).map(Thing::Entity);
+            let whence: Vec<Thing> = whence.collect();
+            memory.order(&named, &whence, &places.collect::<Vec<_>>());
         }
         Ok(commands)
     }

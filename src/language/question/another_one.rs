@@ -2,7 +2,7 @@
 //!
 //! Invariant: what else there is of a kind is told beside what was told of it; where nothing was, it means nothing.
 
-use super::grammar::{Item, Sentence, number_of};
+use super::grammar::{Item, Phrase, Sentence, number_of};
 use super::mark::Mark;
 use super::numbered::genders;
 use super::query::Denial;
@@ -22,6 +22,10 @@ impl Asker<'_> {
         let mut own = items.iter().skip_while(|item| matches!(item, Item::Mark(Mark::And)));
         let Some(Item::Noun(phrase)) = own.next() else { return None };
         let at = phrase.words.start;
+        let leads = items.contains(&Item::Mark(Mark::Lead));
+        if leads && stands_for_noun(phrase) {
+            return self.another_leading(phrase, own, last, memory);
+        }
         if !own.all(|item| matches!(item, Item::Place { .. })) || !sentence.points_ahead(at) {
             return None;
         }
@@ -43,6 +47,41 @@ impl Asker<'_> {
             }
         });
         placed.then_some(query)
+    }
+
+    /// "Is Door 1 open? And the one that leads to the bedroom?": the same of the door that leads there.
+    fn another_leading<'i>(
+        &self,
+        phrase: &Phrase,
+        clause: impl Iterator<Item = &'i Item>,
+        last: &Query,
+        memory: &Memory,
+    ) -> Option<Query> {
+        let knowledge = self.knowledge(memory.language, memory);
+        let mut places: Vec<Restriction> = Vec::new();
+        for item in clause {
+            match item {
+                Item::Mark(Mark::The | Mark::Which | Mark::What | Mark::Lead) => {}
+                Item::Place { rel, nouns, either: false } => {
+                    let anchors = nouns.iter().map(|phrase| phrase.noun.clone()).collect();
+                    let place = Restriction { rel: *rel, anchors, negated: false };
+                    // "… to the bedroom with the desk": the bedroom has it.
+                    match places.last_mut().and_then(|place| place.anchors.last_mut()) {
+                        Some(room) => room.restrictions.push(place),
+                        None => places.push(place),
+                    }
+                }
+                _ => return None,
+            }
+        }
+        let mut query = last.clone();
+        let mut is_of_door = false;
+        query.first_noun(|old| {
+            let base = knowledge.base(&old.head);
+            is_of_door = !base.is_empty() && base.iter().all(|t| knowledge.opening(*t).is_some());
+            *old = Noun { restrictions: places, ..phrase.noun.clone() };
+        });
+        is_of_door.then_some(query)
     }
 
     /// "Is the bedroom door shut? – No, neither Door 1 nor Door 2. – The one to the kitchen?": the same of that one of
@@ -187,6 +226,15 @@ impl Asker<'_> {
         let rest = self.knowledge(memory.language, memory).complement()?;
         Some(Noun { plural: rest.len() > 1, ..Noun::of(rest) })
     }
+}
+
+/// Whether a door is only pointed at: "the other one that leads to the bedroom".
+fn stands_for_noun(phrase: &Phrase) -> bool {
+    let keys = word_keys(&phrase.noun.text);
+    let points = |word: &String| {
+        set!("PointingToNoun").contains(&word.as_str()) || set!("Another").contains(&word.as_str())
+    };
+    !phrase.noun.head.anything && keys.last().is_some_and(points)
 }
 
 /// "The second", which of more than two counts them, and of two is the other one.

@@ -196,6 +196,21 @@ impl Asker<'_> {
         replaced.map(|_| query)
     }
 
+    /// "Which rooms does the bedroom connect to? And the kitchen?": rooms are asked for by another, and that is no answer itself.
+    pub(super) fn around_another(&self, last: &Query, room: &Noun) -> Option<Query> {
+        let mut query = last.clone();
+        let (Query::Find(rooms) | Query::Count(rooms)) = &mut query else { return None };
+        let any = self.is_room(rooms) && rooms.head.named.is_empty() && rooms.best.is_none();
+        let [place] = &mut rooms.restrictions[..] else { return None };
+        let [by] = &place.anchors[..] else { return None };
+        let is_one = !room.head.named.is_empty() && room.restrictions.is_empty();
+        if !any || !is_one || !self.is_room(by) {
+            return None;
+        }
+        place.anchors = vec![room.clone()];
+        Some(query)
+    }
+
     /// «Где они? А в гостиной?»: where others of the kind are, there.
     pub(super) fn of_their_kind(&self, told: &Noun, places: Vec<Restriction>) -> Option<Query> {
         let things = told.head.things.as_deref().filter(|_| !places.is_empty())?;

@@ -30,6 +30,20 @@ impl Knowledge<'_> {
         self.bearing_in_focus(found)
     }
 
+    /// «Сколько ламп в спальне? Нет, я про другую спальню»: the one of some things by which the last question was asked, and which
+    /// its answer is not about.
+    pub(super) fn asked_by(&self, found: &[Thing]) -> Option<Thing> {
+        let mut named = Vec::new();
+        self.memory.query.clone()?.each_noun(&mut |noun| {
+            let own = noun.head.named.iter().map(|entity| Thing::Entity(*entity));
+            let own: Vec<Thing> = own.chain(noun.head.things.iter().flatten().copied()).collect();
+            named
+                .extend(own.first().copied().filter(|only| own.len() == 1 && found.contains(only)));
+        });
+        named.dedup();
+        named.first().copied().filter(|_| named.len() == 1)
+    }
+
     /// "Which pencils are on the table?" after pencils that lie on one of two: the one that bears or holds what was just
     /// spoken of.
     fn bearing_in_focus(&self, found: &[Thing]) -> Option<Thing> {

@@ -327,6 +327,9 @@ impl Asker<'_> {
         }
         // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
         let is_room = self.is_room(&noun);
+        if let Some(query) = self.around_another(last, &noun).filter(|_| is_room) {
+            return Some(query);
+        }
         let mut rooms = false;
         query.each_noun(&mut |old| {
             rooms |= self.is_room(old);

@@ -24,6 +24,8 @@ pub struct Memory {
     pub(super) exchanges: Vec<Exchange>,
     /// Whether what was spoken of last was called by a plural: «таблетки» may be one thing.
     pub(super) is_plural: bool,
+    /// Whether the one thing that was spoken of last is all that a plural names: "them" are none of a list in which it was told.
+    pub(super) is_whole: bool,
     /// The place that a person has told before asking of "there".
     pub(super) told_place: Option<Thing>,
     /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
@@ -279,10 +281,15 @@ impl Memory {
         self.spoken.truncate(50);
     }
 
-    /// Notes what a command is done to, and whither it goes: "there" afterwards, and «на нём» of what may bear things.
-    pub fn order(&mut self, things: &[Thing], places: &[Thing]) {
+    /// Notes what a command is done to, on or in what that is before it, and whither it goes: "there" afterwards, and «на нём» of
+    /// what may bear things.
+    pub fn order(&mut self, things: &[Thing], whence: &[Thing], places: &[Thing]) {
         self.mention(things);
         self.is_plural = things.len() > 1;
+        if let Some(exchange) = self.exchanges.first_mut().filter(|_| !things.is_empty()) {
+            let others = whence.iter().filter(|place| !things.contains(place));
+            exchange.aside.extend(others);
+        }
         let Some(place) = places.last() else { return };
         self.told_place = Some(*place);
         let own = places.iter().rev().filter(|place| !things.contains(place));
@@ -317,6 +324,13 @@ impl Memory {
             self.spoken.retain(|t| t != thing);
             self.spoken.insert(0, *thing);
         }
+    }
+
+    /// All that the last answer or order was about, and the last list.
+    pub(super) fn told_of(&self) -> Vec<Thing> {
+        let latest = self.exchanges.first().into_iter().flat_map(Exchange::things);
+        let all: BTreeSet<Thing> = latest.chain(&self.listed).chain(&self.last).copied().collect();
+        all.into_iter().collect()
     }
 
     /// What was spoken of by itself since the last list, the earliest first.
@@ -432,7 +446,8 @@ pub(super) struct Exchange {
     whither: Option<Thing>,
     /// What was measured against each other: each is "the other one" of the rest.
     compared: Vec<Thing>,
-    /// What a list was asked after by: "it" is no such thing, but what lies on something may be on that.
+    /// What a list was asked after by, and what bore what an order takes: "it" is no such thing, but what lies on something may be
+    /// on that.
     aside: Vec<Thing>,
 }
 
@@ -557,7 +572,7 @@ impl Memory {
     }
 
     fn follow(&mut self, exchange: Exchange) {
-        self.is_lost = false;
+        (self.is_lost, self.is_whole) = (false, false);
         if !exchange.is_empty() {
             self.exchanges.insert(0, exchange);
             self.exchanges.truncate(RECENT);

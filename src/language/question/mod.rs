@@ -475,12 +475,11 @@ impl Asker<'_> {
         let knowledge = self.knowledge(sentence.language, memory);
         // «В каких комнатах есть книги? В какой их больше всего?»: the books, where rooms are asked for.
         let rooms = sentence.asks_of_rooms(&self.mind.lexicon) || sentence.asks_where_most();
-        let chooses = memory.last.len() == 1 && of_those::chooses(&sentence.items());
+        let list = knowledge.list_asked_of(&sentence.items());
         let referent = |pronoun: Pronoun, rel: Option<Rel>| {
             let had = || knowledge.had_by_rooms().filter(|_| rooms);
-            // "How many of them are on the table? Which of them is nearest?": of one thing there are no others.
-            let told = || knowledge.list_with(&memory.last).filter(|_| chooses);
-            let several = (pronoun == Pronoun::They).then(|| had().or_else(told)).flatten();
+            let several = || had().or_else(|| list.clone());
+            let several = (pronoun == Pronoun::They).then(several).flatten();
             several.unwrap_or_else(|| knowledge.referent(pronoun, rel))
         };
         let mut query =

@@ -192,7 +192,12 @@ impl Asker<'_> {
     ) -> Result<Option<String>, Box<Unanswered>> {
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let (words, keys) = (&sentence.words, &sentence.keys);
-        let Some(from) = (0..keys.len()).find(|n| sentence.points_ahead(*n)) else {
+        // «Закрой другую, которая ведёт в спальню»
+        let is_other = |n: &usize| {
+            set!("AnotherOne").contains(&keys[*n].as_str()) && sentence.is_told_by_clause(*n)
+        };
+        let pointing = (0..keys.len()).find(|n| sentence.points_ahead(*n) || is_other(n));
+        let Some(from) = pointing else {
             return Ok(None);
         };
         let parted = |n: &usize| text[words[n - 1].end..words[*n].start].contains(MARKS);
@@ -206,7 +211,10 @@ impl Asker<'_> {
             let kind = last.and_then(|thing| self.kind_word(thing, sentence.language));
             // "… that one too" is another than the last.
             let too = from > 0 && set!("AndWord").contains(&keys[from - 1].as_str());
-            let other = set!("OtherOne").first().filter(|_| too).map_or("", |other| other);
+            let other = match is_other(&from) {
+                true => keys[from].as_str(),
+                false => set!("OtherOne").first().filter(|_| too).map_or("", |other| other),
+            };
             let whole = |kind| {
                 let (before, behind) = (&text[..words[from].start], &text[words[from].end..]);
                 format!("{before}{other} {kind}{behind}")
@@ -283,7 +291,7 @@ impl Asker<'_> {
 
 /// Pronouns of the genders that a Russian adjective or pointing word may have; none for a plural and in English.
 pub(super) fn genders(words: &[String]) -> Vec<Pronoun> {
-    const ENDINGS: [(&str, &[Pronoun]); 16] = [
+    const ENDINGS: [(&str, &[Pronoun]); 20] = [
         ("ая", &[Pronoun::She]),
         ("ую", &[Pronoun::She]),
         ("ья", &[Pronoun::She]),
@@ -300,6 +308,10 @@ pub(super) fn genders(words: &[String]) -> Vec<Pronoun> {
         ("та", &[Pronoun::She]),
         ("ту", &[Pronoun::She]),
         ("то", &[Pronoun::It]),
+        ("ин", &[Pronoun::He]),
+        ("на", &[Pronoun::She]),
+        ("ну", &[Pronoun::She]),
+        ("но", &[Pronoun::It]),
     ];
     let ends = |ending: &str| words.iter().any(|word| word.ends_with(ending) && !word.is_ascii());
     let found = ENDINGS.iter().find(|(ending, _)| ends(ending));

@@ -364,6 +364,14 @@ impl Asker<'_> {
     }
 }
 
+/// Whether it is asked of one of several, whichever: "is one of them in the hall", «стоит ли одна из них в зале».
+pub(super) fn asks_of_one(items: &[Item]) -> bool {
+    items.windows(2).any(|two| match two {
+        [Item::Mark(Mark::A), Item::Noun(phrase)] => phrase.pronoun == Some(Pronoun::They),
+        _ => false,
+    })
+}
+
 /// Whether one of several is asked for by what it is most: "which of them is the nearest", «какая из них ближе».
 pub(super) fn chooses(items: &[Item]) -> bool {
     let which = items.contains(&Item::Mark(Mark::Which));

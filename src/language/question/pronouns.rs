@@ -2,15 +2,19 @@
 //!
 //! Invariant: where several of one rank fit, none is chosen: it is asked back which is meant.
 
+use std::collections::BTreeSet;
+
 use super::Doubt;
 use super::everyday;
-use super::focus::is_shown;
+use super::focus::{is_one, is_shown};
+use super::grammar::points;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, Meaning};
 use super::mark::{Mark, Pronoun};
 use super::memory::Exchange;
 use super::query::{Claim, Noun, Query, Rel, Thing};
 use super::vocabulary;
+use crate::map::Entity;
 use crate::sets::set;
 use crate::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
 
@@ -112,6 +116,9 @@ impl Knowledge<'_> {
         let told_each =
             matches!(query, Query::Where(_) | Query::RoomOf(_)) && !self.memory.is_plural;
         let mut doubt = None;
+        query
+            .clone()
+            .each_noun(&mut |noun| doubt = doubt.take().or_else(|| self.shown_unclearly(noun)));
         let single = |noun: &Noun| {
             let words = word_keys(&noun.text);
             let pronoun = match vocabulary::longest(&words) {
@@ -140,6 +147,33 @@ impl Knowledge<'_> {
             noun.restrictions.iter().flat_map(|place| &place.anchors).for_each(&mut check);
         });
         doubt
+    }
+
+    /// "Is there a bowl in that cabinet?", where none of several was spoken of; or what was told last lies in something of another
+    /// name, which may be called so.
+    fn shown_unclearly(&self, noun: &Noun) -> Option<Doubt> {
+        let mut candidates = match is_shown(noun) && is_one(noun) && !points(noun) {
+            true => self.find(noun, true).ok()?,
+            false => return None,
+        };
+        if candidates.is_empty() || candidates.iter().any(|thing| thing.replica().is_none()) {
+            return None;
+        }
+        let is_spoken = match candidates[..] {
+            [only] => self.memory.exchanges.iter().any(|e| e.things().any(|thing| *thing == only)),
+            _ => self.in_focus(&candidates).is_some(),
+        };
+        let told = self.memory.exchanges.first().into_iter().flat_map(Exchange::things);
+        let bearing = told.filter_map(|thing| self.relations.support_of(thing.replica()?));
+        let bearing: BTreeSet<Thing> =
+            bearing.map(|id| Thing::Entity(Entity::Replica(id))).collect();
+        if let ([only], false) = (&bearing.into_iter().collect::<Vec<_>>()[..], is_spoken)
+            && !candidates.contains(only)
+        {
+            candidates.insert(0, *only);
+        }
+        let reference = noun.text.clone();
+        (!is_spoken && candidates.len() > 1).then_some(Doubt::Ambiguous { reference, candidates })
     }
 
     /// From what something is taken that lies on "it" or in it: what was last spoken of that agrees and may bear things.

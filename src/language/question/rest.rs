@@ -1,6 +1,7 @@
 //! Asking of the rest: whether what was told is all there is, and whether there is more of it elsewhere.
 
 use super::grammar::Sentence;
+use super::lexicon::Extension;
 use super::query::Denial;
 use super::{Asker, Head, Memory, Noun, Query, Rel, Thing};
 use crate::sets::Set;
@@ -50,11 +51,24 @@ impl Asker<'_> {
 
     /// What there is of the kind of what was told last, besides that.
     fn left_of_kind(&self, memory: &Memory) -> Option<Noun> {
-        let told: Vec<Thing> =
-            memory.last.iter().copied().filter(|t| t.replica().is_some()).collect();
-        let kind = self.knowledge(memory.language, memory).alike(&told)?;
-        let noun = Noun { head: Head { kinds: vec![kind], ..Head::default() }, ..Noun::default() };
+        let knowledge = self.knowledge(memory.language, memory);
+        let is_door = |thing: &Thing| knowledge.base(&self.doors()).contains(thing);
+        let head = match memory.last.iter().all(is_door) {
+            true => self.doors(),
+            false => {
+                let told = memory.last.iter().copied().filter(|t| t.replica().is_some());
+                let kind = knowledge.alike(&told.collect::<Vec<_>>())?;
+                Head { kinds: vec![kind], ..Head::default() }
+            }
+        };
+        let noun = Noun { head, ..Noun::default() };
         Some(but(noun, &memory.last))
+    }
+
+    /// Any door, of whatever make.
+    fn doors(&self) -> Head {
+        let kinds = self.mind.lexicon.kind_of(&Extension::Doors).into_iter().collect();
+        Head { kinds, ..Head::default() }
     }
 
     /// "Where are the others?" of several that were told, where there are others; after "how many of them …?" of those.

@@ -1,6 +1,7 @@
 //! A text of several sentences or questions: each is answered, and what only tells is what the others speak of.
 
-use super::grammar::{Item, Sentence};
+use super::focus::is_shown;
+use super::grammar::{Item, Sentence, points};
 use super::mark::{Mark, Pronoun};
 use super::query::Denial;
 use super::{
@@ -264,12 +265,15 @@ impl Asker<'_> {
         memory: &mut Memory,
     ) -> Option<Result<Answer, Unanswered>> {
         let mut parts = several::sentences(text.get(..Self::LONGEST * 2).unwrap_or(text));
+        let mut is_topic = false;
         // "I'm on the sofa, what's the nearest bin?"
         if let [only] = parts[..]
             && let Some((told, asked)) = only.split_once([',', ';', '–', '—'])
-            && (self.premise(told).is_some() || self.is_topic(told, asked))
         {
-            parts = vec![told.trim(), asked.trim()];
+            is_topic = self.is_topic(told, asked);
+            if is_topic || self.premise(told).is_some() {
+                parts = vec![told.trim(), asked.trim()];
+            }
         }
         // "Is the machine on? I can't see it from here.": what is only told stands behind.
         let whole = parts.len();
@@ -324,6 +328,8 @@ impl Asker<'_> {
                 }
                 _ => {
                     self.hear_of(part, &mut after);
+                    // "What is next to Table 2? The table in the hall – what is on it?" goes on from no question.
+                    after.query = after.query.take().filter(|_| !is_topic);
                     if self.is_astray(part) {
                         Self::lose_person(part, &mut after);
                     }
@@ -371,8 +377,8 @@ impl Asker<'_> {
                     _ => Answer::joined(answers, language),
                 }))
             }
-            // Where the person is was told, and is not known.
-            Err(unanswered) if after.astray.is_some() => {
+            // Where the person is was told, and is not known; or what is named means nothing that was told.
+            Err(unanswered) if after.astray.is_some() || is_topic && after.is_lost => {
                 *memory = after;
                 Some(Err(unanswered))
             }
@@ -428,7 +434,12 @@ impl Asker<'_> {
             Item::Noun(phrase) => phrase.person.is_none() && phrase.pronoun.is_none(),
             item => matches!(item, Item::Place { .. }),
         };
-        matches!(&items[..], [first @ Item::Noun(_), rest @ ..] if names(first) && rest.iter().all(names))
+        // "And the plates – how many of them are in the bedroom?": plates, and not those of which it was asked before.
+        let own = match &items[..] {
+            [Item::Mark(Mark::And), own @ ..] => own,
+            own => own,
+        };
+        matches!(own, [first @ Item::Noun(_), rest @ ..] if names(first) && rest.iter().all(names))
             && !self.pronouns(asked).is_empty()
             && opening::begins_question(&word_keys(asked))
     }
@@ -445,7 +456,7 @@ impl Asker<'_> {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let (mut nouns, mut places) = (Vec::<Noun>::new(), Vec::new());
-        let mut behind_noun = false;
+        let (mut behind_noun, mut is_lost, mut pointing) = (false, false, Vec::new());
         for item in sentence.items() {
             // "The television in the bedroom broke": that one, where there is one there.
             if let (true, Item::Place { rel: rel @ (Rel::In | Rel::On), nouns: anchors, .. }) =
@@ -463,6 +474,23 @@ impl Asker<'_> {
             }
             behind_noun = matches!(&item, Item::Noun(phrase) if phrase.person.is_none());
             match item {
+                // "The one in the living room – what is next to it?": of those that were told, or nothing.
+                Item::Noun(phrase) if points(&phrase.noun) && !is_shown(&phrase.noun) => {
+                    let told = match phrase.noun.other {
+                        true => self.others_of_last(memory),
+                        false => Some(Noun::of(memory.told_of())),
+                    };
+                    let told = told
+                        .filter(|told| told.head.things.as_ref().is_some_and(|t| !t.is_empty()));
+                    behind_noun = told.is_some();
+                    is_lost |= told.is_none();
+                    pointing.extend(told.as_ref().map(|_| nouns.len()));
+                    nouns.extend(told.map(|told| Noun {
+                        other: false,
+                        head: told.head,
+                        ..phrase.noun
+                    }));
+                }
                 Item::Noun(phrase) if phrase.person.is_none() => nouns.push(phrase.noun),
                 Item::Place { rel: Rel::In | Rel::On | Rel::At | Rel::To, nouns, .. } => {
                     places.extend(nouns.into_iter().filter(|p| p.person.is_none()).map(|p| p.noun));
@@ -477,16 +505,22 @@ impl Asker<'_> {
             let named: Vec<Thing> = nouns.iter().filter_map(one).flatten().collect();
             let placed: Vec<Thing> = places.iter().filter_map(one).flatten().collect();
             let of_kind = |noun: &&Noun| !noun.head.anything && noun.head.things.is_none();
+            // "The other one – what is on it?", where nothing tells which: "it" is none of what was spoken of.
+            is_lost |= pointing.iter().any(|at| one(&nouns[*at]).is_none());
             let several = match &nouns[..] {
                 [only] => Some(only).filter(of_kind).and_then(found).unwrap_or_default(),
                 _ => Vec::new(),
             };
             (named, placed, several)
         };
-        if !named.is_empty() {
+        if is_lost {
+            memory.is_lost = true;
+        } else if !named.is_empty() {
             // Of two that were named neither is "it".
             memory.list(&named);
-            memory.is_plural = memory.last.len() > 1 || nouns.iter().any(|noun| noun.plural);
+            let is_plural = nouns.iter().any(|noun| noun.plural);
+            memory.is_plural = memory.last.len() > 1 || is_plural;
+            memory.is_whole = memory.last.len() == 1 && is_plural;
         } else if several.len() > 1 {
             // None of them is "it", and of one that was meant there are no others; several may be "they".
             match nouns.iter().any(|noun| noun.plural) {

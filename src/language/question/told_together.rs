@@ -4,11 +4,12 @@
 
 use std::collections::HashSet;
 
-use super::grammar::are_shown;
+use super::grammar::{Item, are_shown};
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId};
 use super::mark::{Mark, Pronoun};
 use super::memory::{Exchange, is_of_whereabouts};
+use super::of_those::{asks_of_one, chooses};
 use super::query::{Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Asker, Memory, vocabulary};
 use crate::map::Entity;
@@ -381,11 +382,31 @@ impl Knowledge<'_> {
     /// The latest list of things of which some are, and others.
     pub(super) fn list_with(&self, some: &[Thing]) -> Option<Vec<Thing>> {
         let has = |list: &&[Thing]| {
-            list.len() > some.len() && !some.is_empty() && some.iter().all(|t| list.contains(t))
+            !self.memory.is_whole
+                && list.len() > some.len()
+                && !some.is_empty()
+                && some.iter().all(|t| list.contains(t))
         };
         let lists = self.memory.exchanges.iter().map(Exchange::members);
         // The list may have been told longer ago than what else is spoken of.
         lists.chain([&self.memory.listed[..]]).find(has).map(<[Thing]>::to_vec)
+    }
+
+    /// The list of which "them" speaks in a question of some of them, where the last answer told fewer.
+    pub(super) fn list_asked_of(&self, items: &[Item]) -> Option<Vec<Thing>> {
+        let of_one = asks_of_one(items);
+        let asked = self.asked_whether_one().filter(|_| of_one);
+        // "How many of them are on the table? Which of them is nearest?": of one thing there are no others.
+        let some = self.memory.last.len() == 1 && (of_one || chooses(items));
+        asked.or_else(|| self.list_with(&self.memory.last).filter(|_| some))
+    }
+
+    /// "Is one of them in the bedroom? – Yes, two. – Is one of them in the hall?": of all of which it was asked.
+    fn asked_whether_one(&self) -> Option<Vec<Thing>> {
+        let Query::Exists { what, .. } = self.memory.query.as_ref()? else { return None };
+        let [noun] = &what[..] else { return None };
+        let list = noun.head.things.as_ref().filter(|list| list.len() > 1)?;
+        self.memory.last.iter().all(|thing| list.contains(thing)).then(|| list.clone())
     }
 
     /// Of the lists that were told, the latest of which a description fits any.

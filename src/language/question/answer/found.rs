@@ -4,6 +4,7 @@
 
 use super::Draft;
 use crate::map::Entity;
+use crate::question::focus::is_shown;
 use crate::question::knowledge::{Frame, Knowledge};
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::query::{Denial, Extreme, Head, Noun, Rel, Thing};
@@ -143,7 +144,8 @@ impl Knowledge<'_> {
         let [anchor] = &place.anchors[..] else { return None };
         let things = anchor.head.things.as_deref().filter(|_| noun.other && noun.head.anything)?;
         let bears = |t: &Thing| !self.related(place.rel, *t).is_empty();
-        let on_or_in = matches!(place.rel, Rel::On | Rel::In);
+        // «Что ещё на этой тумбе?» says of what.
+        let on_or_in = matches!(place.rel, Rel::On | Rel::In) && !is_shown(anchor);
         (on_or_in && !things.iter().any(bears)).then(|| anchor.text.clone())
     }
 

@@ -365,6 +365,7 @@ impl Frame<'_, '_> {
             let has = [Mark::Have, Mark::Exists, Mark::And].iter().any(|mark| self.has(*mark));
             if let ([only], false, None) = (&others[..], has, link)
                 && asked.at < only.at
+                && asked.noun.head.things.is_none()
                 && !(self.negated || only.negated)
                 && only.noun.head.kinds.iter().any(sort)
                 && (only.noun.plural || !rooms)

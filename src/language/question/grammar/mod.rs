@@ -10,6 +10,7 @@
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
 mod governed;
+mod leading;
 mod measures;
 mod modifier;
 mod nearest;
@@ -451,7 +452,13 @@ impl<'t> Sentence<'t> {
                         noun.head.named.clear();
                     }
                 }
-                Modifier::Other => noun.other = true,
+                // "The other bedroom": of the kind, though one room is called so.
+                Modifier::Other => {
+                    noun.other = true;
+                    if !noun.head.kinds.is_empty() {
+                        noun.head.named.clear();
+                    }
+                }
                 Modifier::Same => noun.same = true,
                 // Of two numbers, or two orders, one would be forgotten.
                 Modifier::Number(_) if noun.count.is_some() => return fail(input),

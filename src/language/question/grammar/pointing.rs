@@ -216,8 +216,13 @@ impl Sentence<'_> {
 
     /// «те, что на комоде», «та, которая у окна»: a pointing word in the place of a noun, told by a clause.
     pub(in super::super) fn points_ahead(&self, at: usize) -> bool {
+        POINTING.contains(&self.keys[at].as_str()) && self.is_told_by_clause(at)
+    }
+
+    /// Whether a relative clause stands right behind a word.
+    pub(in super::super) fn is_told_by_clause(&self, at: usize) -> bool {
         let next = self.keys.get(at + 1).map_or("", String::as_str);
         let clause = next == "что" || next.starts_with("котор");
-        clause && POINTING.contains(&self.keys[at].as_str()) && self.comma_between(at + 1, at + 1)
+        clause && self.comma_between(at + 1, at + 1)
     }
 }

@@ -39,6 +39,7 @@ impl<'t> Sentence<'t> {
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
         sentence.drop_idle_but();
+        sentence.tell_openings(lexicon);
         sentence.fill_elided();
         sentence.drop_asking_particle();
         sentence.fill_unsaid();

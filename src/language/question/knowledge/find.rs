@@ -81,7 +81,10 @@ impl Knowledge<'_> {
         if noun.head.anything && !noun.filters.is_empty() {
             found.extend(self.members(&Extension::Doors));
         }
-        let known = self.in_focus(&found).filter(|_| noun.other && !noun.head.anything);
+        let known = match noun.other && !noun.head.anything {
+            true => self.in_focus(&found).or_else(|| self.asked_by(&found)),
+            false => None,
+        };
         // "The other lamp" after an order to one of those that were told is one of those.
         let told = self.of_listed(&found);
         if let Some(known) = known.filter(|known| told.contains(known) && told.len() > 1)

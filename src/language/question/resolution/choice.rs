@@ -3,10 +3,13 @@
 use std::ops::Range;
 
 use super::Resolver;
+use crate::command::Sort;
 use crate::question::Doubt;
 use crate::question::focus::is_shown;
 use crate::question::grammar::{Item, Phrase, points};
+use crate::question::memory::Exchange;
 use crate::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
+use crate::sets::set;
 use crate::units::{AreaId, InOrder as _};
 
 impl Resolver<'_, '_> {
@@ -312,6 +315,17 @@ impl Resolver<'_, '_> {
             .into_iter()
             .filter(|t| t.replica().is_some() && self.knowledge.area_of(*t) == Some(room));
         there.next().filter(|_| there.next().is_none() && !noun.counts_several())
+    }
+
+    /// "Go to the living room. – Go to the TV stand there": the room of which was spoken last, where the words point at it; "that
+    /// stand" is the one there, where none was spoken of.
+    pub(super) fn room_pointed_at(&self, sort: Sort, phrase: &Phrase) -> Option<AreaId> {
+        let there = |key: &String| set!("ThereWord").contains(&key.as_str());
+        let points = sort == Sort::Go && self.sentence.keys.iter().any(there);
+        let found = || self.knowledge.find(&phrase.noun, true).unwrap_or_default();
+        let is_shown = is_shown(&phrase.noun) && self.knowledge.in_focus(&found()).is_none();
+        let topic = self.knowledge.memory.exchanges.first().and_then(Exchange::topic);
+        topic.filter(|_| points || is_shown).and_then(Thing::area)
     }
 
     /// The room in which the robot is.

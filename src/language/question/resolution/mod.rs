@@ -451,7 +451,9 @@ impl Resolver<'_, '_> {
         let upon = goal.map(|goal| own[goal].rel);
         let whither = match goal {
             Some(goal) => {
-                let (spot, room) = (own.remove(goal), told.carried_to.or(told.gone_to));
+                let spot = own.remove(goal);
+                let room = told.carried_to.or(told.gone_to);
+                let room = room.or_else(|| self.room_pointed_at(sort, spot.phrase));
                 match self.whither(spot, &mut own, sort, room, edits) {
                     // «На зарядку», where there are several: the robot goes to the nearest.
                     Err((Doubt::Ambiguous { .. }, _))

@@ -10,7 +10,7 @@ use crate::map::Entity;
 use crate::question::Doubt;
 use crate::question::grammar::{Item, Phrase, points};
 use crate::question::knowledge::Knowledge;
-use crate::question::lexicon::Extension;
+use crate::question::lexicon::{Extension, KindId};
 use crate::question::mark::Mark;
 use crate::question::query::{Filter, Head, Noun, Quantity, Rel, Restriction, Thing};
 use crate::question::values::ValueId;
@@ -68,6 +68,9 @@ impl Resolver<'_, '_> {
             noun.plural = true;
         } else if let (true, Some(like)) = (noun.head.anything, more.like) {
             noun.head = like;
+        } else if sort == Sort::Door && points(&noun) && self.is_led_to(spots) {
+            // "Close the other one that leads to the bedroom": what leads to a room is a door.
+            noun.head = Head { kinds: self.door_kinds(), ..Head::default() };
         } else if noun.head.anything && noun.other {
             noun.head = Head { things: Some(self.like_spoken()), ..Head::default() };
         } else if noun.head.anything
@@ -285,12 +288,11 @@ impl Resolver<'_, '_> {
             return Ok(Some(found));
         }
         // «Поезжай на кухню и возьми чашку»: the one that is there.
-        let near = |t: &&Thing| self.knowledge.area_of(**t) == more.gone_to;
-        if let (Some(_), true, [only]) = (
-            more.gone_to,
-            found.len() > 1,
-            &found.iter().filter(near).copied().collect::<Vec<_>>()[..],
-        ) {
+        let room = more.gone_to.or_else(|| self.room_pointed_at(sort, phrase));
+        let near = |t: &&Thing| self.knowledge.area_of(**t) == room;
+        if let (Some(_), true, [only]) =
+            (room, found.len() > 1, &found.iter().filter(near).copied().collect::<Vec<_>>()[..])
+        {
             found = vec![*only];
         }
         if (noun.indefinite
@@ -311,6 +313,18 @@ impl Resolver<'_, '_> {
             }
         }
         Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
+    }
+
+    /// Whether places tell a room to which something leads.
+    fn is_led_to(&self, spots: &[&&Spot<'_>]) -> bool {
+        spots.iter().any(|spot| {
+            let rooms = self.knowledge.base(&spot.phrase.noun.head);
+            spot.rel == Rel::To && !rooms.is_empty() && rooms.iter().all(|t| t.area().is_some())
+        })
+    }
+
+    fn door_kinds(&self) -> Vec<KindId> {
+        self.knowledge.lexicon().kind_of(&Extension::Doors).into_iter().collect()
     }
 
     /// What is left out must be something, and be left out of several: "all cups except the purple one" where none is

@@ -154,6 +154,10 @@ impl Resolver<'_, '_> {
             let base = self.knowledge.base(&phrase.noun.head);
             !base.is_empty() && base.iter().all(|t| t.area().is_some() || is_storey(t))
         };
+        // "The door to the bedroom with the bed"
+        if sort == Sort::Door && rel == Rel::Has && self.is_room(&last.phrase.noun) {
+            return true;
+        }
         if sort == Sort::Door || self.is_whither(rel, phrase) == Some(true) {
             return false;
         }

@@ -9,8 +9,9 @@ use crate::map::Entity;
 use crate::question::grammar::{Item, Sentence};
 use crate::question::mark::{Mark, Pronoun};
 use crate::question::memory::{Exchange, Ordered};
+use crate::question::numbered::genders;
 use crate::question::vocabulary;
-use crate::question::{Asker, Doubt, Memory, Thing};
+use crate::question::{Asker, Doubt, Memory, Rel, Thing};
 use crate::sets::{Set, of_kind, set};
 use crate::words::{
     Case, Language, NounPhrase, Number, WordHints, english, phrase_at, word_keys, word_ranges,
@@ -426,13 +427,26 @@ impl Asker<'_> {
             is(*n, &ONE) && is(n + 1, set!("Of")) && is(n + 2, &THEM) && ends
         };
         let said = (0..keys.len().saturating_sub(2)).find(of_them).map(|n| (n, n + 2));
+        // "Put one in the fridge": the place says whither, and the one is of those that were told.
+        let whither = |at: usize| {
+            let verbs = command::clauses(&text);
+            let puts = matches!(verbs[..], [(_, Sort::Put)]);
+            let described = command::without_verbs(&text);
+            let first = word_ranges(&described).into_iter().next();
+            let is_first = first.is_some_and(|first| first.start == words[at].start);
+            let placed = matches!(
+                keys.get(at + 1..).and_then(vocabulary::longest),
+                Some((_, Mark::Link(Rel::In | Rel::On)))
+            );
+            puts && is_first && placed
+        };
         let bare = || {
             let described = word_keys(&command::without_verbs(&text));
             let is_one = |key: &&String| ONE.contains(&key.as_str());
             let all = described.iter().all(|key| is_one(&key) || SMALL.contains(&key.as_str()));
             let once = all && described.iter().filter(is_one).count() == 1;
-            let at = keys.iter().position(|key| ONE.contains(&key.as_str())).filter(|_| once)?;
-            Some((at, at))
+            let at = keys.iter().position(|key| ONE.contains(&key.as_str()))?;
+            (once || whither(at)).then_some((at, at))
         };
         let language = Language::of(&text);
         let knowledge = self.knowledge(language, memory);
@@ -442,7 +456,11 @@ impl Asker<'_> {
         };
         let at = words[first].start..words[last].end;
         let sort = command::clauses(&text).first().map_or(Sort::Other, |(_, sort)| *sort);
-        let can = |t: &Thing| knowledge.can(sort, *t);
+        let genders = genders(&keys[first..=first]);
+        let agrees = |t: &Thing| {
+            genders.is_empty() || genders.iter().any(|gender| knowledge.agrees(*gender, *t))
+        };
+        let can = |t: &Thing| knowledge.can(sort, *t) && agrees(t);
         let fit: Vec<Thing> = memory.last.iter().copied().filter(can).collect();
         let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
         let nearest = fit.iter().min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)));
