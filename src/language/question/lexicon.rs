@@ -5,16 +5,20 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::map::{Entity, Permeability, TypeEntry, World};
+use crate::map::{Entity, Object, TypeEntry, World};
 use crate::names::{chargers, english_name, hints, hints_of_type};
 use crate::sets::{Set, named, of_kind, set};
-use crate::units::{AreaId, Gather as _, InOrder as _, ObjectId, Point, TypeId, name_key};
+use crate::units::{Gather as _, InOrder as _, ObjectId, TypeId, name_key};
 use crate::words::things::things;
-use crate::words::{FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday};
+use crate::words::{
+    FormIndex, Hit, Language, NounPhrase, Number, WordHints, english, everyday, word_keys,
+};
 
 use super::memo::Memo;
 use super::purposes;
 use super::values::Values;
+pub use super::windows::Window;
+use super::windows::windows;
 
 /// A kind by its place in the lexicon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -73,15 +77,6 @@ pub struct Kind {
 pub enum Meaning {
     Entity(Entity),
     Kind(KindId),
-}
-
-/// A window in the wall of an Area.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Window {
-    pub area: AreaId,
-    pub name: String,
-    /// Its side's ends in the Map's frame.
-    pub ends: (Point, Point),
 }
 
 named!(Extension: Things Furniture Rooms Doors Passages Windows Places Storeys Building Floor Walls Corners Exits OuterDoors
@@ -208,15 +203,7 @@ impl Lexicon {
                 let phrase = NounPhrase::parse(&object.name, &WordHints::default());
                 lexicon.add(Extension::Object(object.id), &phrase, &object.name_en, false);
             }
-            // A "nurse desk" is a sort of desk, which Russian has no word of its own for.
-            let kind = world.types.object.get(object.object_type);
-            let own = name_key(&object.name_en);
-            let is_own = kind.is_some_and(|kind| name_key(&kind.name_en) != own);
-            if is_own && !own.is_empty() && !lexicon.own_english.contains(&own) {
-                let phrase = NounPhrase::parse(&object.name, &WordHints::default());
-                let id = lexicon.push(Extension::Object(object.id), phrase, &object.name_en);
-                lexicon.nouns.insert_english(&object.name_en, Meaning::Kind(id));
-            }
+            lexicon.add_sort_of_type(world, object);
         }
         lexicon.add_concepts(world);
         lexicon.add_building(world);
@@ -224,6 +211,19 @@ impl Lexicon {
         lexicon.add_sorts();
         lexicon.add_parts(world);
         lexicon
+    }
+
+    /// A "nurse desk" is a sort of desk, which Russian has no word of its own for; a "metal cabinet" is any that is of metal.
+    fn add_sort_of_type(&mut self, world: &World, object: &Object) {
+        let kind = world.types.object.get(object.object_type);
+        let own = name_key(&object.name_en);
+        let is_own = kind.is_some_and(|kind| name_key(&kind.name_en) != own);
+        let is_valued = self.values.longest(&word_keys(&object.name_en)).is_some();
+        if is_own && !own.is_empty() && !is_valued && !self.own_english.contains(&own) {
+            let phrase = NounPhrase::parse(&object.name, &WordHints::default());
+            let id = self.push(Extension::Object(object.id), phrase, &object.name_en);
+            self.nouns.insert_english(&object.name_en, Meaning::Kind(id));
+        }
     }
 
     /// Types of the Orthoframes that objects consist of.
@@ -674,29 +674,4 @@ fn used_types(world: &World) -> BTreeSet<TypeKey> {
     let areas = world.areas.values().filter_map(|a| a.area_type).map(|t| TypeKey(1, t));
     let doors = world.doors.values().filter_map(|d| d.door_type).map(|t| TypeKey(2, t));
     object_types.chain(areas).chain(doors).gather()
-}
-
-/// Sides that the map calls windows.
-fn windows(world: &World) -> Vec<Window> {
-    let is_window = |id: Option<TypeId>| {
-        world.types.side.get(id).is_some_and(|t| {
-            [&t.name, &t.name_en].iter().any(|n| ["окно", "window"].contains(&&*name_key(n)))
-        })
-    };
-    let placements = world.placements();
-    let mut found = Vec::new();
-    for area in world.areas.values() {
-        let Some((_, frame)) = placements.get(&area.id) else { continue };
-        for item in &area.items {
-            let place = frame.compose(&item.frame);
-            for side in &world.orthoframe_of(item).base {
-                if is_window(side.side_type) && side.permeability != Permeability::Permeable {
-                    let name = side.names.first().cloned().unwrap_or_default();
-                    let ends = (place.apply(side.start), place.apply(side.end));
-                    found.push(Window { area: area.id, name, ends });
-                }
-            }
-        }
-    }
-    found
 }

@@ -80,6 +80,7 @@ mod values;
 mod vocabulary;
 mod whole;
 mod why;
+mod windows;
 
 pub use address::{unaddressed, unbegged};
 pub use asides::{Aside, aside, asks_whether, begs, behind_no};
