@@ -299,7 +299,7 @@ fn what_is_told_beside_a_question_is_not_asked_for() {
     assert_eq!(answer(&engine, asked, &mut Memory::default()), None);
 }
 
-/// "Which nurse desk is closest to you?": what kind of thing it is does not say from where.
+/// "Which office chair is closest to you?": what kind of thing it is does not say from where.
 #[test]
 fn the_nearest_is_nearest_to_what_is_said() {
     let Some(engine) = engine("../shared/data/rmf/clinic.building.yaml") else { return };
@@ -307,6 +307,6 @@ fn the_nearest_is_nearest_to_what_is_said() {
         let answer = engine.ask(line, &mut Memory::default()).expect("there is a map");
         answer.expect("it is understood").symbols
     };
-    let told = nearest("Which nurse desk is closest to you?");
-    assert!(told.len() == 1 && told == nearest("Which nurse desk is the closest?"), "{told:?}");
+    let told = nearest("Which office chair is closest to you?");
+    assert!(told.len() == 1 && told == nearest("Which office chair is the closest?"), "{told:?}");
 }

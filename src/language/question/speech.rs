@@ -11,6 +11,7 @@ use crate::words::{
     Case, Gender, Language, NounPhrase, Number, WordHints, alternatives, english, enumerate,
 };
 
+use super::focus::without_article;
 use super::knowledge::{Frame, Knowledge};
 use super::lexicon::{Extension, KindId, lower_first};
 use super::query::{Filter, Noun, Rel, Restriction, Thing};
@@ -369,6 +370,19 @@ impl Knowledge<'_> {
         }
         if noun.head.anything && noun.filters.is_empty() {
             return self.pick("ничего", "nothing").to_owned();
+        }
+        // «На карте нет этажей» is no answer of a second one, where there is a first.
+        let unranked = Noun { rank: None, ..noun.clone() };
+        let is_ranked = noun.rank.is_some() && !noun.text.is_empty();
+        if is_ranked && self.find(&unranked, true).is_ok_and(|all| !all.is_empty()) {
+            let said = without_article(&noun.text);
+            return match self.language {
+                Language::Russian => format!("такого: «{said}»"),
+                Language::English => {
+                    let (_, name) = self.kind_phrase(noun);
+                    format!("{} that would be “{said}”", english::plural(&name))
+                }
+            };
         }
         match self.language {
             Language::Russian => {

@@ -86,13 +86,17 @@ impl Knowledge<'_> {
     /// Whether nothing is in or on a thing.
     pub(super) fn say_empty(&self, thing: Thing, negated: bool) -> Draft {
         let mut held = self.related(Rel::In, thing);
-        held.extend(self.related(Rel::On, thing));
+        let container = thing.replica().is_some_and(|id| self.world.has_trait(id, "container"));
+        // What stands on a microwave does not fill it, but what stands on a dresser is on it.
+        let bears = thing.replica().is_some_and(|id| self.world.has_trait(id, "support"));
+        if bears || !container {
+            held.extend(self.related(Rel::On, thing));
+        }
         held.order();
         held.dedup();
         let yes = held.is_empty() != negated;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let inside = held.iter().any(|t| self.tuple(Rel::In, *t, thing).is_some());
-        let container = thing.replica().is_some_and(|id| self.world.has_trait(id, "container"));
         let rel = if inside || (held.is_empty() && container) { Rel::In } else { Rel::On };
         let place = self.place(rel, &[thing]);
         let text = match (held.is_empty(), self.is_russian()) {

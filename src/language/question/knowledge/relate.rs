@@ -35,6 +35,13 @@ impl Knowledge<'_> {
                 found.retain(|t| self.opening(*t).is_some());
                 found
             }
+            // "Which door leads to the lounge?", a place in a hall: those of the hall.
+            (Rel::From | Rel::To | Rel::Through, Thing::Entity(Entity::Place(id))) => {
+                let area = self.world.places.get(&id).map(|place| Entity::Area(place.area));
+                let mut found = area.map_or(vec![], |area| self.related(rel, Thing::Entity(area)));
+                found.retain(|t| self.opening(*t).is_some());
+                found
+            }
             (Rel::In | Rel::On | Rel::At, Thing::Entity(Entity::Area(area))) => self.in_area(area),
             (Rel::Of | Rel::From | Rel::To | Rel::Through, Thing::Entity(Entity::Area(area))) => {
                 let mut found = self.in_area(area);

@@ -535,9 +535,11 @@ impl Asker<'_> {
             && !memory.is_plural
             && knowledge.gender(*only).1 != Number::Plural
         {
-            let told = memory.exchanges.iter().map(|e| e.things().copied().filter(fits));
-            let told = told.map(Iterator::collect::<Vec<_>>);
-            if let Some(several) = told.into_iter().find(|all| all.len() > 1) {
+            let mut told = memory.exchanges.iter().map(|e| {
+                let told = e.topics().iter().chain(e.members()).copied();
+                told.filter(fits).collect::<Vec<_>>()
+            });
+            if let Some(several) = told.find(|all| all.len() > 1) {
                 return several;
             }
         }
