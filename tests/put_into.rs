@@ -45,8 +45,7 @@ fn put_into(
             |id| !holds || world.has_trait(id, "container") && !world.has_trait(id, "portable");
         for holder in world.replicas.values().filter(|r| r.id != thing.id && fits(r.id)) {
             let kind = world.objects[&holder.object].object_type;
-            let one_of = if holds { 2 } else { 6 };
-            if !long() && (!kinds.insert(kind) || kinds.len() % one_of > 0) {
+            if !long() && (!kinds.insert(kind) || !holds && kinds.len() % 3 > 0) {
                 continue;
             }
             let russian = |n: usize, case| {

@@ -6,7 +6,7 @@ use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
 use crate::language::words::NounPhrase;
 use crate::language::{Case, Gender, Language, Number, enumerate, zone_in_words};
-use crate::map::{DoorStatus, Entity, LiftStop, Mark, World};
+use crate::map::{DoorStatus, Entity, LiftStop, World};
 use crate::units::{AreaId, DoorId, Lengths, ReplicaId, told, word};
 
 use super::RouteAnswer;
@@ -125,7 +125,8 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         names.dedup();
         let list = enumerate(&names, language);
         // What stands in the way by a size that nobody measured may stand beside it.
-        match blockers.iter().any(|b| of_usual_size(world, b)) {
+        let is_usual = |blocker: &Blocker| matches!(blocker, Blocker::Replica { replica, .. } if world.is_of_usual_size(*replica));
+        match blockers.iter().any(is_usual) {
             true => told!(language, "by-usual-sizes", list),
             false => list,
         }
@@ -174,13 +175,6 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
             told!(language, "joined-by-nothing", rooms = enumerate(&rooms, language))
         }
     }
-}
-
-/// Whether a thing in the way has the usual size of its kind, which nobody measured.
-fn of_usual_size(world: &World, blocker: &Blocker) -> bool {
-    let Blocker::Replica { replica, .. } = blocker else { return false };
-    let object = world.replicas.get(replica).map(|replica| &world.objects[&replica.object]);
-    object.is_some_and(|object| Mark::UsualSize.of(&object.properties).is_some())
 }
 
 /// With what a word about it agrees.

@@ -9,7 +9,7 @@ use crate::units::{
 };
 
 use super::{
-    Area, Door, DoorState, Forms, Item, Object, Orthoframe, Properties, Records, SideRef,
+    Area, Door, DoorState, Forms, Item, Mark, Object, Orthoframe, Properties, Records, SideRef,
     TypeLists, Zone,
 };
 
@@ -303,6 +303,13 @@ impl World {
         self.maps.values().find_map(|map| {
             map.items.iter().find(|item| item.area == area).map(|item| (map.id, item.frame))
         })
+    }
+
+    /// Whether a thing has the usual size of its kind, which nobody measured.
+    #[must_use]
+    pub fn is_of_usual_size(&self, replica: ReplicaId) -> bool {
+        let object = self.replicas.get(&replica).map(|replica| &self.objects[&replica.object]);
+        object.is_some_and(|object| Mark::UsualSize.of(&object.properties).is_some())
     }
 
     /// Whether the type of a replica's Object has a trait.

@@ -475,8 +475,7 @@ impl Rule<'_, '_> {
         // How many there are is counted after the rule.
         self.measured |= restriction.anchors.iter().any(|a| a.count.is_some());
         // Rooms stand in the facts with their storeys, things by their rooms alone.
-        let is_map = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
-        if self.knowledge.find(anchor, true).is_ok_and(|found| found.iter().any(is_map)) {
+        if self.knowledge.find(anchor, true).is_ok_and(|found| found.iter().any(Thing::is_storey)) {
             self.measured = true;
             return;
         }

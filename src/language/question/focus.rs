@@ -425,8 +425,7 @@ impl Knowledge<'_> {
             // "On what floors?", of nothing: a storey is in no room and on nothing.
             Query::RoomOf(noun) | Query::Anchor { of: noun, .. } => {
                 let base = self.base(&noun.head);
-                let storey = |thing: &Thing| matches!(thing, Thing::Entity(Entity::Map(_)));
-                !base.is_empty() && base.iter().all(storey)
+                !base.is_empty() && base.iter().all(Thing::is_storey)
             }
             Query::Several(queries) => queries.iter().any(|query| self.tells_nothing(query)),
             Query::Exists { what, .. } => what.iter().any(floors),

@@ -199,11 +199,12 @@ impl Lexicon {
         let of_type: HashMap<&str, ()> =
             world.types.object.entries.values().map(|e| (e.name.as_str(), ())).collect();
         for object in world.objects.values() {
-            if !of_type.contains_key(object.name.as_str()) && !object.name.is_empty() {
+            if of_type.contains_key(object.name.as_str()) {
+                lexicon.add_sort_of_type(world, object);
+            } else if !object.name.is_empty() {
                 let phrase = NounPhrase::parse(&object.name, &WordHints::default());
                 lexicon.add(Extension::Object(object.id), &phrase, &object.name_en, false);
             }
-            lexicon.add_sort_of_type(world, object);
         }
         lexicon.add_concepts(world);
         lexicon.add_building(world);

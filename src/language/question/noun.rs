@@ -101,6 +101,12 @@ pub enum Thing {
 }
 
 impl Thing {
+    /// A storey of the building.
+    #[must_use]
+    pub fn is_storey(&self) -> bool {
+        matches!(self, Self::Entity(Entity::Map(_)))
+    }
+
     #[must_use]
     pub fn replica(self) -> Option<ReplicaId> {
         match self {
@@ -135,6 +141,14 @@ pub struct Head {
     pub things: Option<Vec<Thing>>,
     /// Anything at all.
     pub anything: bool,
+}
+
+impl Head {
+    /// What is of one kind: any door, any room.
+    #[must_use]
+    pub fn of_kind(lexicon: &Lexicon, extension: &Extension) -> Self {
+        Self { kinds: lexicon.kind_of(extension).into_iter().collect(), ..Self::default() }
+    }
 }
 
 /// A value that the thing must, or must not, have.

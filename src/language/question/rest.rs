@@ -67,8 +67,7 @@ impl Asker<'_> {
 
     /// Any door, of whatever make.
     fn doors(&self) -> Head {
-        let kinds = self.mind.lexicon.kind_of(&Extension::Doors).into_iter().collect();
-        Head { kinds, ..Head::default() }
+        Head::of_kind(&self.mind.lexicon, &Extension::Doors)
     }
 
     /// "Where are the others?" of several that were told, where there are others; after "how many of them …?" of those.

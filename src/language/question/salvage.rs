@@ -292,13 +292,7 @@ impl Asker<'_> {
                 Item::Noun(phrase) if phrase.person.is_none() => {
                     !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
                 }
-                // "On what floors?" asks of nothing that it names.
-                Item::Place { nouns, .. } => {
-                    let start = nouns.first().map_or(0, |phrase| phrase.words.start);
-                    let before = start.checked_sub(1).map(|n| &sentence.keys[n..=n]);
-                    let asked = before.and_then(vocabulary::longest).map(|(_, mark)| mark);
-                    n > 0 && !matches!(asked, Some(Mark::Which | Mark::What))
-                }
+                Item::Place { .. } => n > 0,
                 Item::Unknown(words) => self.is_word(sentence.said(words)),
                 Item::Mark(mark) => {
                     matches!(mark, Mark::Activity(_) | Mark::Sit | Mark::LieDown | Mark::PutDown)

@@ -244,15 +244,13 @@ impl Knowledge<'_> {
 
     /// A storey that is called one: "Floor 1".
     fn is_floor_name(&self, thing: Thing) -> bool {
-        let is_map = matches!(thing, Thing::Entity(Entity::Map(_)));
         let name = || self.name(thing).to_lowercase();
-        is_map && set!("StoreyNoun").iter().any(|word| name().contains(word))
+        thing.is_storey() && set!("StoreyNoun").iter().any(|word| name().contains(word))
     }
 
     /// The name of one storey of several where that is no more than a code: «L2».
     fn bare_storey(&self, thing: Thing) -> Option<String> {
-        let is_map = matches!(thing, Thing::Entity(Entity::Map(_)));
-        if !is_map || self.world.maps.len() < 2 {
+        if !thing.is_storey() || self.world.maps.len() < 2 {
             return None;
         }
         let name = self.name(thing);

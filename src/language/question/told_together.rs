@@ -38,8 +38,7 @@ impl Asker<'_> {
     /// «Сколько этажей? – Первый и Второй. – Что на втором?», «Сколько столов на первом этаже? А на втором?»: a number without
     /// its noun, after storeys that were told or a storey that was asked of.
     pub(super) fn with_storey(&self, text: &str, memory: &Memory) -> Option<String> {
-        let storey = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
-        let told = |e: &Exchange| e.members().len() > 1 && e.members().iter().all(storey);
+        let told = |e: &Exchange| e.members().len() > 1 && e.members().iter().all(Thing::is_storey);
         let asked = || self.asked_of_storey(memory) && goes_on_alone(text);
         if !memory.exchanges.iter().any(told) && !asked() {
             return None;
@@ -66,7 +65,7 @@ impl Asker<'_> {
         let Some(sought) = memory.query.as_ref().and_then(Query::sought) else { return false };
         let is_storey = |anchor: &Noun| {
             let found = knowledge.find(anchor, true).unwrap_or_default();
-            matches!(found[..], [Thing::Entity(Entity::Map(_))])
+            matches!(&found[..], [only] if only.is_storey())
         };
         sought.restrictions.iter().flat_map(|place| &place.anchors).any(is_storey)
     }

@@ -24,13 +24,13 @@ macro_rules! marks {
 
 /// Every mark that words may have; in the file they go by their names here.
 const MARKS: &[Mark] = marks![
-    Where What Anything Kinds Hang Opens Whither Whence How Move As Which HowMany Count Side HowFar HowLong
-    HowGet When Why WhyNot Who Exists Be Have Lead Parts MadeOf Describe List See LastSeen Last
-    Before Free Sit LieDown PutDown Can Hold Take You Me Not Avoiding Unopened MustOpen Must Cannot
-    Differ Alike Without Directly OccupiedBy Took Moved OnlyOne And Or ThanTo Than All Each Except
-    Other FacingIt Help Did Changed Unseen Sureness Heading Same There One A The These Listed Total Now
-    Everywhere BesidePolite Sound Interjection Limits WhoIsRight Called Hesitates Particle Corrects
-    But Filler;
+    Where What Anything Kinds Hang Opens Whither Whence How Move As Which HowMany Count Side HowFar
+    HowLong HowGet When Why WhyNot Who Exists Be Have Lead Parts MadeOf Describe List See LastSeen
+    Last Before Free Sit LieDown PutDown Can Hold Take You Me Not Avoiding Unopened MustOpen Must
+    Cannot Differ Alike Without Directly OccupiedBy Took Moved OnlyOne And Or ThanTo Than All Each
+    Except Other FacingIt Help Did Changed Unseen Sureness Heading Same There One A The These Listed
+    Total Now Everywhere BesidePolite Sound Interjection Limits WhoIsRight Called Hesitates Particle
+    Corrects But Filler;
     Rank: 1 2 3 4 5;
     HowBig(Dimension): All Elevation Height Width Length Area Sides;
     Link(Rel): In On Under Above NextTo Near LeftOf RightOf Behind InFrontOf Between Facing Middle

@@ -32,10 +32,9 @@ impl Knowledge<'_> {
     ) -> Result<Option<Draft>, Doubt> {
         let [Claim::Related(place)] = claims else { return Ok(None) };
         let whither = matches!(place.rel, Rel::To | Rel::Near | Rel::NextTo | Rel::At | Rel::On);
-        let is_storey = |thing: &Thing| matches!(thing, Thing::Entity(Entity::Map(_)));
         let [anchor] = &place.anchors[..] else { return Ok(None) };
         let storeys = self.find(anchor, true).unwrap_or_default();
-        if !whither || storeys.is_empty() || !storeys.iter().all(is_storey) {
+        if !whither || storeys.is_empty() || !storeys.iter().all(Thing::is_storey) {
             return Ok(None);
         }
         let all = self.find(subject, true).unwrap_or_default();

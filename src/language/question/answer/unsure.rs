@@ -3,7 +3,7 @@
 //! Invariant: an answer all of whose things are in doubt affirms and denies nothing.
 
 use super::Draft;
-use crate::map::{Entity, Mark};
+use crate::map::Entity;
 use crate::question::Said;
 use crate::question::knowledge::Knowledge;
 use crate::question::query::{Dimension, Extreme, Query, Thing};
@@ -67,11 +67,8 @@ impl Knowledge<'_> {
             let beyond = noun.beyond.as_ref().map(|(extreme, _)| *extreme);
             measures |= [best, beyond].iter().flatten().any(by_size) || !noun.sizes.is_empty();
         });
-        let is_usual = |thing: &Thing| {
-            let object = thing.replica().and_then(|id| self.world.replicas.get(&id));
-            let object = object.and_then(|replica| self.world.objects.get(&replica.object));
-            object.is_some_and(|object| Mark::UsualSize.of(&object.properties).is_some())
-        };
+        let is_usual =
+            |thing: &Thing| thing.replica().is_some_and(|id| self.world.is_of_usual_size(id));
         if measures && draft.things.iter().chain(&draft.topic).any(is_usual) {
             let usual = self.pick(
                 "размеры – обычные для таких вещей, на месте их не измеряли",

@@ -263,9 +263,8 @@ impl Frame<'_, '_> {
             self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Best(_) | Mark::BestTo(_)));
         let nearest = best || self.nouns.iter().any(|s| s.noun.best.is_some());
         if let (Some(Use::Sit), true) = (use_for, nearest) {
-            let kinds = self.lexicon.kind_of(&Extension::Trait("seat")).into_iter().collect();
             let best = self.nouns.iter().find_map(|s| s.noun.best.clone());
-            let head = Head { kinds, ..Head::default() };
+            let head = Head::of_kind(self.lexicon, &Extension::Trait("seat"));
             let seat = Noun { head, best, indefinite: true, ..Noun::default() };
             return Some(Query::Find(self.with_rest(seat, &[])));
         }
@@ -355,10 +354,7 @@ impl Frame<'_, '_> {
         let opened = self.lexicon.values.meaning("открытый")?;
         let open = |value: &ValueId| self.lexicon.values.is(*value, opened);
         let doors = match &self.nouns[..] {
-            [] => {
-                let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
-                Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() }
-            }
+            [] => Noun { head: Head::of_kind(self.lexicon, &Extension::Doors), ..Noun::default() },
             [only] if self.is_doors(&only.noun) => only.noun.clone(),
             _ => return None,
         };

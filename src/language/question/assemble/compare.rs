@@ -57,8 +57,7 @@ impl Frame<'_, '_> {
         let mut asked = match asked {
             Some(subject) => subject.noun.clone(),
             None if self.has(Mark::Where) => {
-                let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
-                Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() }
+                Noun { head: Head::of_kind(self.lexicon, &Extension::Rooms), ..Noun::default() }
             }
             None => return None,
         };
@@ -498,8 +497,7 @@ impl Frame<'_, '_> {
         })?;
         let building = || {
             // "What is the total floor area?"
-            let kinds = self.lexicon.kind_of(&Extension::Building).into_iter().collect();
-            let head = Head { kinds, ..Head::default() };
+            let head = Head::of_kind(self.lexicon, &Extension::Building);
             matches!(dimension, Dimension::Area | Dimension::Height)
                 .then(|| Noun { head, ..Noun::default() })
         };

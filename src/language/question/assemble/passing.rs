@@ -94,8 +94,7 @@ impl Frame<'_, '_> {
 
     /// The nearest way out.
     pub(super) fn nearest_exit(&self) -> Noun {
-        let kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
         let best = Some(Best { extreme: Extreme::Nearest, anchor: None });
-        Noun { head: Head { kinds, ..Head::default() }, best, ..Noun::default() }
+        Noun { head: Head::of_kind(self.lexicon, &Extension::Exits), best, ..Noun::default() }
     }
 }

@@ -54,9 +54,12 @@ impl Frame<'_, '_> {
                 nouns[0].clone()
             }
             (None, []) if self.asks_whither() => {
-                let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
                 let except = self.except.clone();
-                Noun { head: Head { kinds, ..Head::default() }, except, ..Noun::default() }
+                Noun {
+                    head: Head::of_kind(self.lexicon, &Extension::Rooms),
+                    except,
+                    ..Noun::default()
+                }
             }
             _ => return None,
         };
@@ -285,9 +288,8 @@ impl Frame<'_, '_> {
 
     /// The doors of a room, by which one leaves it.
     fn doors_out_of(&self, room: Noun) -> Query {
-        let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
         let out = Restriction { rel: Rel::From, anchors: vec![room], negated: false };
-        let head = Head { kinds, ..Head::default() };
+        let head = Head::of_kind(self.lexicon, &Extension::Doors);
         Query::Find(Noun { head, plural: true, restrictions: vec![out], ..Noun::default() })
     }
 
@@ -482,10 +484,9 @@ impl Frame<'_, '_> {
     }
 
     pub(super) fn rooms_near(&self, anchor: Noun) -> Noun {
-        let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
         let restriction = Restriction { rel: Rel::Near, anchors: vec![anchor], negated: false };
         Noun {
-            head: Head { kinds, ..Head::default() },
+            head: Head::of_kind(self.lexicon, &Extension::Rooms),
             plural: true,
             restrictions: vec![restriction],
             ..Noun::default()

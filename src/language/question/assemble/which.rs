@@ -149,8 +149,7 @@ impl Frame<'_, '_> {
             && !self.is_area(&lacked.noun)
         {
             // «Где нет стульев?»
-            let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
-            let head = Head { kinds, ..Head::default() };
+            let head = Head::of_kind(self.lexicon, &Extension::Rooms);
             return Some(self.rooms_with(&Noun { head, ..Noun::default() }));
         }
         let mut nouns = self.nouns.iter();

@@ -163,7 +163,7 @@ impl Knowledge<'_> {
                 return Err(Doubt::NotUnderstood { words: anchor.text.clone() });
             }
             // «щётка с пастой»: what holds and bears nothing has nothing.
-            let bears = |t: &Thing| leads(t) || is_map(*t) || self.may_bear(*t);
+            let bears = |t: &Thing| leads(t) || t.is_storey() || self.may_bear(*t);
             if matches!(restriction.rel, Rel::Has | Rel::Bears)
                 && !found.is_empty()
                 && !found.iter().any(bears)
@@ -206,7 +206,9 @@ impl Knowledge<'_> {
             };
             // "Which floor has the lamp?"
             let mut related = related;
-            if restriction.rel == Rel::Has && !found.is_empty() && found.iter().all(|t| is_map(*t))
+            if restriction.rel == Rel::Has
+                && !found.is_empty()
+                && found.iter().all(Thing::is_storey)
             {
                 let areas: Vec<AreaId> = related.iter().filter_map(|t| t.area()).collect();
                 let maps = areas.into_iter().filter_map(|area| self.world.placement(area));
@@ -218,7 +220,7 @@ impl Knowledge<'_> {
                 && found.iter().all(|t| !related.contains(t))
             {
                 let rooms = related.iter().filter(|t| t.area().is_some()).copied();
-                let storeys = related.iter().filter(|t| is_map(**t)).copied();
+                let storeys = related.iter().filter(|t| t.is_storey()).copied();
                 if let Rel::NextTo | Rel::Near | Rel::Above | Rel::Under = restriction.rel {
                     let mut told: Vec<Thing> = storeys.collect();
                     if told.is_empty() {
@@ -287,7 +289,7 @@ impl Knowledge<'_> {
                 let places = (rank.unwrap_or(1), noun.count.unwrap_or(1));
                 self.best(best, found, self.is_anything(&noun.head), places, loose)
             }
-            (None, Some(rank)) if !found.is_empty() && found.iter().all(|t| is_map(*t)) => {
+            (None, Some(rank)) if !found.is_empty() && found.iter().all(Thing::is_storey) => {
                 Ok(self.storey(found, rank))
             }
             // «вторая чашка» of several that were just told.
@@ -614,8 +616,4 @@ impl Knowledge<'_> {
     fn is_place(&self, thing: Thing) -> bool {
         matches!(thing, Thing::Entity(Entity::Area(_) | Entity::Map(_)))
     }
-}
-
-fn is_map(thing: Thing) -> bool {
-    matches!(thing, Thing::Entity(Entity::Map(_)))
 }

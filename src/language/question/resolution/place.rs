@@ -152,7 +152,7 @@ impl Resolver<'_, '_> {
     fn tells_where(&self, last: &Spot<'_>, rel: Rel, phrase: &Phrase, sort: Sort) -> bool {
         let area = |phrase: &Phrase| {
             let base = self.knowledge.base(&phrase.noun.head);
-            !base.is_empty() && base.iter().all(|t| t.area().is_some() || is_storey(t))
+            !base.is_empty() && base.iter().all(|t| t.area().is_some() || t.is_storey())
         };
         // "The door to the bedroom with the bed"
         if sort == Sort::Door && rel == Rel::Has && self.is_room(&last.phrase.noun) {
@@ -197,7 +197,7 @@ impl Resolver<'_, '_> {
     /// Whether what is named is a storey, whichever.
     pub(super) fn means_storey(&self, phrase: &Phrase) -> bool {
         let base = self.knowledge.base(&phrase.noun.head);
-        !base.is_empty() && base.iter().all(is_storey)
+        !base.is_empty() && base.iter().all(Thing::is_storey)
     }
 
     /// Whether a place says whither, by its preposition or its case; none where that depends on the verb.
@@ -482,10 +482,6 @@ impl Resolver<'_, '_> {
             _ => None,
         })
     }
-}
-
-fn is_storey(thing: &Thing) -> bool {
-    matches!(thing, Thing::Entity(Entity::Map(_)))
 }
 
 /// The case of a name after a preposition.
