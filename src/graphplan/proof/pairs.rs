@@ -3,9 +3,7 @@
 //!
 //! An operator whose preconditions can all hold in pairs carries over every fact that can hold beside each of them
 //! and that it does not delete. Rows of bits make that a few words an operator; only operators that need a fact whose
-//! row has grown are looked at again.
-
-use std::collections::VecDeque;
+//! row has grown are looked at again, sweep by sweep.
 
 use crate::bits;
 use crate::strips::{FactId, OperatorId, Task};
@@ -41,27 +39,28 @@ impl ReachedPairs {
         }
         let without_needs: Vec<OperatorId> =
             task.operator_ids().filter(|&id| task.operator(id).preconditions.is_empty()).collect();
-        let mut queue: VecDeque<OperatorId> = task.operator_ids().collect();
-        let mut waits = vec![true; task.operators.len()];
-        let mut grown = Vec::new();
-        let mut looked_at = 0_u32;
-        while let Some(id) = queue.pop_front() {
-            looked_at += 1;
-            if looked_at.is_multiple_of(256) {
-                limits.check(reached.rows.len() * 8)?;
+        let mut due: Vec<OperatorId> = task.operator_ids().collect();
+        let mut is_due = vec![false; task.operators.len()];
+        let mut grown = Grown { facts: Vec::new(), has: vec![false; task.facts.len()] };
+        // Sweep by sweep: a row mostly grows by many operators of a sweep, and who needs it is looked for once.
+        while !due.is_empty() {
+            let mut any_new = false;
+            for (n, id) in due.drain(..).enumerate() {
+                if n.is_multiple_of(256) {
+                    limits.check(reached.rows.len() * 8)?;
+                }
+                is_due[id.index()] = false;
+                any_new |= reached.carry_out(task, id, &mut grown);
             }
-            waits[id.index()] = false;
-            let is_new = reached.carry_out(task, id, &mut grown);
             // What needs nothing goes beside every fact that can hold at all.
-            let others = if is_new { without_needs.as_slice() } else { &[] };
-            let lists = grown.drain(..).map(|fact: usize| needed_by[fact].as_slice());
-            for list in lists.chain([others]) {
-                for &by in list {
-                    if !std::mem::replace(&mut waits[by.index()], true) {
-                        queue.push_back(by);
-                    }
+            let others = if any_new { without_needs.as_slice() } else { &[] };
+            let needing = grown.facts.iter().flat_map(|fact| &needed_by[*fact]).chain(others);
+            for &id in needing {
+                if !std::mem::replace(&mut is_due[id.index()], true) {
+                    due.push(id);
                 }
             }
+            grown.clear();
         }
         Ok(reached)
     }
@@ -81,15 +80,20 @@ impl ReachedPairs {
 
     /// Notes what an operator brings about and which facts' rows have grown by it; whether it makes a fact hold that
     /// never did.
-    fn carry_out(&mut self, task: &Task, id: OperatorId, grown: &mut Vec<usize>) -> bool {
+    fn carry_out(&mut self, task: &Task, id: OperatorId, grown: &mut Grown) -> bool {
         let operator = task.operator(id);
-        let mut beside = match operator.preconditions.split_first() {
+        let needs = &operator.preconditions;
+        let may_hold = |(n, a): (usize, &FactId)| {
+            let row = self.row(*a);
+            needs[n..].iter().all(|b| bits::has(row, b.index()))
+        };
+        if !needs.iter().enumerate().all(may_hold) {
+            return false;
+        }
+        let mut beside = match needs.split_first() {
             Some((first, others)) => {
                 let mut beside = self.row(*first).to_vec();
                 others.iter().for_each(|&fact| bits::keep_common(&mut beside, self.row(fact)));
-                if !operator.preconditions.iter().all(|f| bits::has(&beside, f.index())) {
-                    return false;
-                }
                 beside
             }
             None => {
@@ -116,11 +120,11 @@ impl ReachedPairs {
                 for bit in bits::of_word(more) {
                     let other = word * 64 + bit;
                     bits::put(&mut self.rows[other * self.words..][..self.words], added.index());
-                    grown.push(other);
+                    grown.add(other);
                 }
             }
             if grows {
-                grown.push(added.index());
+                grown.add(added.index());
             }
         }
         is_new
@@ -128,5 +132,23 @@ impl ReachedPairs {
 
     fn can_hold(&self, fact: FactId) -> bool {
         bits::has(self.row(fact), fact.index())
+    }
+}
+
+/// Facts whose rows have grown, each once.
+struct Grown {
+    facts: Vec<usize>,
+    has: Vec<bool>,
+}
+
+impl Grown {
+    fn add(&mut self, fact: usize) {
+        if !std::mem::replace(&mut self.has[fact], true) {
+            self.facts.push(fact);
+        }
+    }
+
+    fn clear(&mut self) {
+        self.facts.drain(..).for_each(|fact| self.has[fact] = false);
     }
 }
