@@ -97,6 +97,7 @@ mod referents;
 mod relation_truth;
 mod relations;
 mod remedies;
+mod repaired;
 mod rmf_floors;
 mod robot_facts;
 mod rounds;

@@ -6,7 +6,8 @@ use crate::language::command::{Misheard, is_command, is_order_by, without_marks}
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Corrected, Doubt, Fact, Memory, Mind, Misread, News, Noun, Past, Query,
-    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
+    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, cores, hinged,
+    unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -14,7 +15,7 @@ use crate::meaning;
 use crate::robot::{beyond_arm, starting_pose};
 use crate::semantics::{Relations, Subject, robot_eye, things_in_view};
 use crate::store::Seen;
-use crate::units::{InOrder as _, MapId, Pose, ReplicaId, told};
+use crate::units::{InOrder as _, MapId, Pose, ReplicaId, capitalized, told};
 
 use super::barriers::no_way_in_words;
 use super::journey::Journey;
@@ -82,7 +83,32 @@ impl State {
                 break;
             }
         }
+        if found.is_empty() {
+            found.extend(self.question_within(text)?);
+        }
         Ok(found.into_iter().map(|(question, _)| question).collect())
+    }
+
+    /// What a line asks without a part of it that is not understood.
+    fn question_within(&self, text: &str) -> Result<Option<(String, Query)>, Error> {
+        let senses = RobotSenses { engine: self };
+        let asker = self.asker(&senses)?;
+        for (core, _) in cores(text) {
+            let marked = core.ends_with('?');
+            let asks = marked || !text.contains('?') && asker.begins_as_question(core);
+            if !asks
+                || !asker.asks_of_something(core)
+                || asker.read(core, &Memory::default()).is_err()
+            {
+                continue;
+            }
+            if let Ok(answer) = self.ask(core, &mut Memory::default())?
+                && answer.said != Said::Unknown
+            {
+                return Ok(Some((capitalized(core), answer.query)));
+            }
+        }
+        Ok(None)
     }
 
     /// Brings what a dialogue remembers to the map as it now is.

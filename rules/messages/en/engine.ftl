@@ -133,6 +133,7 @@ it-did-not-work-out = it did not work out
 it-was-stopped = it was stopped
 the-robot-failed = the robot failed
 opens-on-the-way = On the way { $doors } must be opened (closed, not locked).
+i-do-not-understand-the-rest = I do not understand “{ $rest }”.
 shall-i-do-this = { $told } Shall I do this: "{ $order }"?
 would-serve-shall-i-do = { $none }; { $name } would serve. Shall I do this: "{ $order }"?
 cancelled-tasks-tasks = Cancelled, tasks: { $tasks }.

@@ -130,6 +130,7 @@ it-did-not-work-out = не вышло
 it-was-stopped = остановлено
 the-robot-failed = робот отказал
 opens-on-the-way = По пути нужно открыть { $doors } (закрыто не на замок).
+i-do-not-understand-the-rest = Я не понимаю: «{ $rest }».
 shall-i-do-this = { $told } Выполнить: «{ $order }»?
 would-serve-shall-i-do = { $none }; подойдёт { $name }. Выполнить: «{ $order }»?
 cancelled-tasks-tasks = Отменено заданий: { $tasks }.

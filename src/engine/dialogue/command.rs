@@ -57,7 +57,9 @@ impl Hearing<'_, '_> {
                 } else {
                     self.engine.hear_of(line, &mut self.dialogue.memory)?;
                 }
-                return match self.offer_nearest(line, &error, language)? {
+                let is_offered = self.offer_nearest(line, &error, language)?
+                    || self.offer_core(line, &error, language)?;
+                return match is_offered {
                     true => Ok(()),
                     false => self.refuse_order(line, error, language),
                 };

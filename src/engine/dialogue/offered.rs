@@ -1,9 +1,9 @@
 //! Orders that are told and wait for a yes, since it is not sure that they are meant; questions that may have been.
 
 use crate::language::Language;
-use crate::language::command::is_order;
-use crate::language::question::{Aside, Conditional, Doubt, Unanswered, rank_alone};
-use crate::units::told;
+use crate::language::command::{Command, Misheard, is_order};
+use crate::language::question::{Aside, Conditional, Doubt, Unanswered, cores, rank_alone};
+use crate::units::{capitalized, told};
 
 use super::{Dialogue, Engine, Error, Hearing, Outcome, Reply};
 
@@ -80,6 +80,30 @@ impl Hearing<'_, '_> {
             return Ok(false);
         };
         self.offer(order.to_owned(), &unanswered.text, unanswered.language)?;
+        Ok(true)
+    }
+
+    /// «Включи стиралку, я забыла»: the order within a line of which a part is not understood waits for a yes; whether there
+    /// is one.
+    pub(super) fn offer_core(
+        &mut self,
+        line: &str,
+        error: &Error,
+        language: Language,
+    ) -> Result<bool, Error> {
+        let is_unheard = matches!(
+            error,
+            Error::Misheard(Misheard::UnknownName { .. } | Misheard::NotUnderstood { .. })
+        );
+        let memory = &self.dialogue.memory;
+        let does = |core: &str| {
+            let heard = self.engine.understand_in(core, &mut memory.clone());
+            is_order(core) && heard.is_ok_and(|commands| !commands.contains(&Command::Stop))
+        };
+        let found = cores(line).filter(|_| is_unheard).find(|(core, _)| does(core));
+        let Some((core, rest)) = found else { return Ok(false) };
+        let told = told!(language, "i-do-not-understand-the-rest", rest);
+        self.offer(capitalized(core), &told, language)?;
         Ok(true)
     }
 

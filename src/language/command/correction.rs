@@ -19,7 +19,18 @@ pub(crate) struct Correction<'t> {
 
 /// The last correction of a text that orders before it; none where it asks.
 pub(crate) fn correction(text: &str) -> Option<Correction<'_>> {
-    if text.trim_end().ends_with('?') || super::is_too_long(text) {
+    let asks = text.trim_end().ends_with('?');
+    (!asks).then(|| last(text, verbs::has_verb)).flatten()
+}
+
+/// The last correction within a question: "Where is the cup, no, the mug?"
+pub(crate) fn correction_of_question(text: &str) -> Option<Correction<'_>> {
+    last(text, |before| !before.trim().is_empty())
+}
+
+/// The last correction of a text behind a part like this.
+fn last(text: &str, is_corrected: impl Fn(&str) -> bool) -> Option<Correction<'_>> {
+    if super::is_too_long(text) {
         return None;
     }
     let said = Said::new(text.to_owned());
@@ -32,8 +43,7 @@ pub(crate) fn correction(text: &str) -> Option<Correction<'_>> {
             .rev()
             .find(|&n| said.parted(n))
             .is_some_and(|n| takes_back(&said, n).is_some_and(|(_, end)| end >= at));
-        let orders = verbs::has_verb(before);
-        (orders && !goes_on).then_some(Correction { before, behind, is_sure })
+        (is_corrected(before) && !goes_on).then_some(Correction { before, behind, is_sure })
     })
 }
 

@@ -39,7 +39,7 @@ mod vocabulary;
 mod waiting;
 
 pub use addressee::without_another;
-pub(crate) use correction::{Correction, correction, with_object};
+pub(crate) use correction::{Correction, correction, correction_of_question, with_object};
 pub(crate) use gathered::{gathered, gathered_of};
 pub(crate) use hints::{awaited, has_haunt, is_haunt, is_of_another, names_nothing, says_whither};
 pub use hints::{

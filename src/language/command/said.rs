@@ -36,9 +36,8 @@ impl Said {
     /// Whether a mark stands before a word.
     pub(super) fn parted(&self, at: usize) -> bool {
         match at.checked_sub(1).map(|before| self.words[before].end) {
-            Some(end) if at < self.words.len() => {
-                self.text[end..self.words[at].start].contains([',', ';', '.', '!', ':', '–', '—'])
-            }
+            Some(end) if at < self.words.len() => self.text[end..self.words[at].start]
+                .contains([',', ';', '.', '!', '…', ':', '–', '—']),
             _ => true,
         }
     }

@@ -15,7 +15,7 @@ use super::orders::hinges;
 use super::query::Courtesy;
 use super::several::{self, is_tag};
 use super::vocabulary;
-use crate::command::is_order;
+use crate::command::{Correction, correction_of_question, is_order};
 use crate::sets::{Set, set};
 use crate::words::{is_first_person, phrase_at, word_keys, word_ranges};
 
@@ -29,6 +29,10 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     for (at, mark) in marks.map(|(at, mark)| (at, mark.len_utf8())).chain([(line.len(), 0)]) {
         let end = at + mark;
         let keys = word_keys(&line[from..at]);
+        if puts_right(line, from, end) {
+            from = end;
+            continue;
+        }
         let polite = suiting(&line[from..at], &keys);
         if let Some(polite) = polite.filter(|_| !is_hinge(line, from, end)) {
             let (begin, until) = (from + polite.start, from + polite.end);
@@ -126,6 +130,24 @@ fn suiting(part: &str, keys: &[String]) -> Option<Range<usize>> {
         Some(taken) if is_order(&part[words[taken].start..]) => Some(0..words[taken].start),
         _ => Some(words[convenience::at_the_end(keys)?].start..part.len()),
     }
+}
+
+/// «Где кружка, ой, чашка?», "…, sorry, the mug": whether bytes of a line put right what a word before them said.
+fn puts_right(line: &str, from: usize, end: usize) -> bool {
+    let Some(Correction { before, behind, .. }) = correction_of_question(line) else {
+        return false;
+    };
+    let last = word_keys(before).pop();
+    let asks = |mark: Mark| mark.asks() || matches!(mark, Mark::Link(_));
+    let is_whole =
+        last.is_some_and(|last| !vocabulary::longest(&[last]).is_some_and(|(_, m)| asks(m)));
+    is_whole
+        && before.len() <= from
+        && end <= line.len() - behind.len()
+        && courtesy::of(before).is_none()
+        && word_keys(behind).first().is_some_and(|first| !is_first_person(first))
+        && !begins_clause(before, behind)
+        && !is_order(behind)
 }
 
 /// Whether what stands behind words that say nothing is a clause of its own, and not the rest of the one before them.

@@ -7,8 +7,8 @@ use std::ops::Range;
 use super::grammar::{Item, Phrase, Sentence};
 use super::mark::Mark;
 use super::orders::hinges;
-use super::told_aside::is_polite;
-use super::{Answer, Asker, Memory, opening, premise, several, vocabulary};
+use super::told_aside::{is_marked, is_polite};
+use super::{Answer, Asker, Memory, Query, opening, premise, several, vocabulary};
 use crate::sets::{Set, set};
 use crate::words::{Language, may_be_predicate, phrase_at, word_keys, word_ranges};
 
@@ -107,8 +107,10 @@ impl Asker<'_> {
                 && !is_reported(&word_keys(told))
                 && !parts_of(told).any(|part| self.bounds(part) || self.tells_how_much(part))
                 && !parts_of(told).any(|part| self.premise(part).is_some())
+                && (asked.contains('?') || !parts_of(told).any(is_marked))
                 && !self.narrows(told, asked)
                 && !goes_on(told, asked)
+                && self.asks_of_something(asked)
                 && !(premise::says_here(asked) && self.tells_of_place(told));
             let mut after = memory.clone();
             if !stands {
@@ -119,6 +121,11 @@ impl Asker<'_> {
                 Self::lose_person(told, &mut after);
             }
             let answer = self.ask(asked, &mut after).ok()?;
+            // Whither was told, and came to nothing.
+            let is_way = matches!(answer.query, Query::Way { .. });
+            if !is_way && self.tells_of_place(told) && self.asks_the_way(asked) {
+                return None;
+            }
             let answer = self.heeding(&[told], answer, &after).ok()?;
             after.learn(&answer);
             *memory = after;
@@ -313,6 +320,19 @@ fn without(text: &str, clause: &Range<usize>) -> String {
     let asks = text[clause.clone()].ends_with('?') && behind.is_empty();
     let joined = if before.is_empty() || behind.is_empty() { "" } else { " " };
     format!("{before}{joined}{behind}{}", if asks { "?" } else { "" })
+}
+
+/// What a line says beside one run of its parts, the longest run first: the run, and the rest.
+pub fn cores(text: &str) -> impl Iterator<Item = (&str, String)> {
+    const MOST: usize = 8;
+    let parts = if text.len() > 1_000 { Vec::new() } else { parts(text) };
+    let count = if parts.len() > MOST { 0 } else { parts.len() };
+    let runs =
+        (1..count).rev().flat_map(move |n| (0..=count - n).map(move |from| (from, from + n - 1)));
+    runs.map(move |(from, to)| {
+        let run = parts[from].0..parts[to].1;
+        (&text[run.clone()], without(text, &run))
+    })
 }
 
 /// The same by their text.

@@ -59,6 +59,7 @@ mod premise;
 mod pronouns;
 mod purposes;
 mod query;
+mod repaired;
 mod rephrase;
 mod resolution;
 mod respelt;
@@ -84,6 +85,7 @@ mod windows;
 
 pub use address::{unaddressed, unbegged};
 pub use asides::{Aside, aside, asks_whether, begs, behind_no};
+pub use clauses::cores;
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use departed::{Departed, Stamp};
 pub use doubt::{Doubt, Unanswered};
@@ -320,25 +322,26 @@ impl Asker<'_> {
     fn heard(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
         // A hyphen between blanks stands for a dash.
         let text = unaddressed(text).replace(" - ", " – ");
-        let text = &*address::untagged(&text);
         if text.chars().any(char::is_alphabetic) {
-            memory.language = Language::of(text);
+            memory.language = Language::of(&text);
         }
         let language = memory.language;
         // What is too long is not even read.
-        if is_too_long(text) {
+        if is_too_long(&text) {
             let length = text.chars().take(1_000_000).count();
             memory.miss(&Doubt::TooLong { length }, false);
             return Err(self.knowledge(language, memory).unanswered(Doubt::TooLong { length }));
         }
+        if let Some(outcome) = self.answer_as_meant(&text, language, memory) {
+            return outcome;
+        }
+        let text = &*address::untagged(&text);
         let text = self.without_self_doubt(text).unwrap_or(text);
         if self.is_astray(text) {
             Self::lose_person(text, memory);
         }
-        if let Some(answer) = self.told_where(text, language, memory) {
-            return Ok(answer);
-        }
-        if let Some(answer) = self.who_is_right(text, language, memory) {
+        let told = self.told_where(text, language, memory);
+        if let Some(answer) = told.or_else(|| self.who_is_right(text, language, memory)) {
             return Ok(answer);
         }
         // A fact in the notation of the rules is one, whatever its commas.
@@ -350,15 +353,11 @@ impl Asker<'_> {
         if let Some(Ok(answer)) = parts {
             return Ok(answer);
         }
-        if !is_noted
-            && let (None, Some(answered)) = (&parts, self.each_sentence(text, language, memory))
-        {
-            return answered;
-        }
-        if !is_noted
-            && let (None, Some(answered)) = (&parts, self.asked_there(text, language, memory))
-        {
-            return answered;
+        if !is_noted && parts.is_none() {
+            let sentences = self.each_sentence(text, language, memory);
+            if let Some(answered) = sentences.or_else(|| self.asked_there(text, language, memory)) {
+                return answered;
+            }
         }
         let outcome = parts.unwrap_or_else(|| self.answer(text, language, memory));
         if let Err(unanswered) = &outcome

@@ -6,7 +6,7 @@
 use super::clauses::{JOINTS, behind_joint, goes_on, is_reported, parts, parts_of};
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::told_aside::{Named, is_polite, is_wish, only_begs, tells};
+use super::told_aside::{Named, is_marked, only_begs, tells};
 use super::{
     Asker, Doubt, Memory, Noun, Outcome, Query, Said, opening, premise, several, vocabulary,
 };
@@ -47,12 +47,7 @@ impl Asker<'_> {
         let mut spans: Vec<(usize, usize)> = spans.collect();
         spans.order_by_key(|(from, to)| (parts.len() - (to - from), *from));
         // Where a part ends as questions do, that is what asks; but for one by which a person is polite or begs.
-        let marked = |n: usize| {
-            let part = &text[parts[n].0..parts[n].1];
-            let keys = word_keys(part);
-            let wishes = is_wish(&keys) && !several::asks_outright(part);
-            part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes
-        };
+        let marked = |n: usize| is_marked(&text[parts[n].0..parts[n].1]);
         let any_marked = (0..parts.len()).any(marked);
         let (mut doubted, mut untold) = (None, None);
         for (from, to) in spans {
@@ -91,6 +86,11 @@ impl Asker<'_> {
             let begins = (0..words.len().min(MOST_WORDS)).filter(|n| at_once(*n));
             for begin in begins.map(|n| words[n].start) {
                 let asked = &span[begin..];
+                // "Is there a coke left? I'm dying of thirst, anything to drink": what is marked is asked.
+                let marks = |n: usize| marked(n) && parts[n].1 > start + begin;
+                if any_marked && !(from..=to).any(marks) {
+                    continue;
+                }
                 if begin > 0 && goes_on(&text[..start + begin], asked) {
                     continue;
                 }
@@ -164,6 +164,12 @@ impl Asker<'_> {
                         if claimed
                             && !self.asks(asked)
                             && !matches!(answer.said, Said::Yes | Said::No) => {}
+                    // «Мне срочно надо в туалет, как пройти из кухни?»: whither was told, and came to nothing.
+                    Ok(answer)
+                        if !told.named.places.is_empty()
+                            && !placed
+                            && !matches!(answer.query, Query::Way { .. })
+                            && self.asks_the_way(asked) => {}
                     Ok(answer) => match self.heeding(&aside, answer, &heard) {
                         Ok(answer) => return Some(Ok(answer.understood_as(asked, language))),
                         Err(doubt) => doubted = doubted.or(Some(Box::new((doubt, None)))),
@@ -276,8 +282,14 @@ impl Asker<'_> {
             || words.last_chunk::<2>().is_some_and(|last| whether(last))
     }
 
+    pub(super) fn asks_the_way(&self, text: &str) -> bool {
+        let plain = self.plain(text);
+        Sentence::new(&plain, &self.mind.lexicon).items().contains(&Item::Mark(Mark::HowGet))
+    }
+
     /// Whether a question names what it is about beside the noun of its question word, or what is done.
-    fn asks_of_something(&self, text: &str) -> bool {
+    #[must_use]
+    pub fn asks_of_something(&self, text: &str) -> bool {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let items = sentence.items();
@@ -289,7 +301,7 @@ impl Asker<'_> {
         let points = !items.is_empty() && (0..sentence.keys.len()).any(is_it);
         points
             || (0..items.len()).any(|n| match &items[n] {
-                Item::Noun(phrase) if phrase.person.is_none() => {
+                Item::Noun(phrase) if phrase.person.is_none_or(|who| who == Mark::There) => {
                     !matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Mark(Mark::Which)))
                 }
                 Item::Place { .. } => n > 0,

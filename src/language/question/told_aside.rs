@@ -174,7 +174,7 @@ impl Named {
 }
 
 /// What a part of a line takes back: «нет, не утюг», "not the armchair".
-fn withdrawn(items: &[Item]) -> Option<&Item> {
+pub(super) fn withdrawn(items: &[Item]) -> Option<&Item> {
     let mut rest = items.iter().skip_while(|item| {
         matches!(item, Item::Mark(Mark::Not | Mark::The | Mark::A | Mark::And | Mark::Filler))
     });
@@ -200,6 +200,13 @@ pub(super) fn is_polite(keys: &[String]) -> bool {
         }
         _ => false,
     }
+}
+
+/// Whether a part ends as questions do, and neither is polite nor begs by that.
+pub(super) fn is_marked(part: &str) -> bool {
+    let keys = word_keys(part);
+    let wishes = is_wish(&keys) && !several::asks_outright(part);
+    part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes
 }
 
 /// "Someone told me there's a cart in the hall": that there is something is told, where "there" stands before "is".

@@ -265,6 +265,8 @@ pub(super) fn answers(query: &Query, mark: Mark, told: &Told) -> bool {
         }
         // «Кто оставил биту в спальне?» does not ask whether it is there.
         Mark::Who => !matches!(query, Q::Holds { .. }),
+        // "I need the bathroom, how do I get out of the kitchen?" claims nothing of the two.
+        Mark::HowGet => !matches!(query, Q::Holds { .. } | Q::Same { .. } | Q::Together { .. }),
         Mark::Kinds => matches!(query, Q::Kinds { .. }),
         Mark::Hold => matches!(query, Q::WhatDoYouHold | Q::Holds { .. }),
         Mark::Differ | Mark::Alike => false,

@@ -174,6 +174,8 @@ impl Frame<'_, '_> {
                 let pair = self.with_rest(ends[0].clone(), &[]);
                 return Some(Query::Distance { from: Some(pair.clone()), to: pair });
             }
+            // "I need the bathroom, how do I get out of the kitchen?": which of the two is left nothing says.
+            (None, None, 2..) if self.says_out() => return None,
             (from, None, 1..) => {
                 let second = ends.get(1).cloned();
                 (

@@ -1,0 +1,166 @@
+//! A question that corrects itself while it is asked: "What's on the TV stand, no wait, on the sofa?", «Где ключи… ой, карта?»
+//!
+//! **Invariant**: what was taken back is neither asked nor denied, and what stands for it takes the place of the one thing that
+//! it can stand for; where that may be several, nothing is answered.
+
+use std::ops::Range;
+
+use super::grammar::{Item, Phrase, Sentence};
+use super::knowledge::Knowledge;
+use super::mark::Mark;
+use super::{Answer, Asker, Doubt, Memory, Rel, Thing, Unanswered, opening, several, vocabulary};
+use crate::command::{self, Correction};
+use crate::sets::set;
+use crate::words::{Case, Language, word_keys, word_ranges};
+
+/// What a question names, as far as a correction can put another in its place.
+struct Named {
+    rel: Option<Rel>,
+    /// In bytes, with the preposition and the article.
+    at: Range<usize>,
+    /// The same without the preposition.
+    noun: Range<usize>,
+    is_area: bool,
+    phrase: Phrase,
+}
+
+impl Asker<'_> {
+    /// The answer to a question that corrects itself.
+    pub(super) fn answer_as_meant(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Result<Answer, Unanswered>> {
+        Some(match self.repaired(text)? {
+            Ok(meant) => self.heard(&meant, memory).map(|a| a.understood_as(&meant, language)),
+            Err(doubt) => {
+                memory.miss(&doubt, false);
+                Err(self.knowledge(language, memory).unanswered(doubt))
+            }
+        })
+    }
+
+    /// A question as it is meant, where it corrects itself; none where it does not.
+    ///
+    /// # Errors
+    /// [`Doubt::Unheeded`]: what is put instead may stand for several, or for nothing that was said.
+    fn repaired(&self, text: &str) -> Option<Result<String, Doubt>> {
+        let Correction { before, behind, is_sure } = command::correction_of_question(text)?;
+        let behind = self.without_withdrawn(without_i_mean(behind));
+        let before = match self.repaired(before) {
+            Some(Ok(meant)) => meant,
+            _ => before.to_owned(),
+        };
+        let (keys, memory) = (word_keys(behind), Memory::default());
+        if opening::begins_question(&keys) || several::asks_outright(behind) {
+            // "What is on the bed, no, what is on the sofa?", but "How many eggs are on the table, no wait, how many cups?"
+            let placed = |text: &str| self.named_in(text, &memory).iter().any(|n| n.rel.is_some());
+            let is_whole = placed(behind) || !placed(&before);
+            return (is_sure && keys.len() > 2).then(|| match is_whole {
+                true => Ok(behind.to_owned()),
+                false => Err(Doubt::unheeded(behind)),
+            });
+        }
+        let meant = self.named_in(behind, &memory);
+        let [first, ..] = &meant[..] else { return None };
+        // "…, sorry, I am looking for the cup": a clause of its own corrects nothing.
+        let led = |word: &str| set!("TheOrA").contains(&word);
+        let begins = behind[..first.at.start].split_whitespace().all(led);
+        if !begins {
+            return None;
+        }
+        let told = self.named_in(&before, &memory);
+        if told.is_empty() {
+            return None;
+        }
+        let unheeded = || is_sure.then(|| Err(Doubt::unheeded(behind)));
+        let stands_for = |one: &&Named| match first.rel {
+            Some(rel) => one.rel == Some(rel),
+            None => one.is_area == first.is_area && may_be_in_place_of(&one.phrase, &first.phrase),
+        };
+        let mut taken_back: Vec<&Named> = told.iter().filter(stands_for).collect();
+        // "In the kitchen, no, on the table": another relation than any that was said.
+        if taken_back.is_empty() && first.rel.is_some() {
+            taken_back = told.iter().filter(|one| one.rel.is_some()).collect();
+        }
+        let [one] = taken_back[..] else { return unheeded() };
+        let at = if first.rel.is_some() { &one.at } else { &one.noun };
+        let (head, tail) = (&before[..at.start], &before[at.end..]);
+        let asks = if text.trim_end().ends_with('?') { "?" } else { "" };
+        let behind = behind.trim_end_matches(['?', '.', '!', ' ']);
+        Some(Ok(format!("{head}{behind}{tail}{asks}")))
+    }
+
+    fn named_in(&self, text: &str, memory: &Memory) -> Vec<Named> {
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let knowledge = self.knowledge(sentence.language, memory);
+        let named = |rel: Option<Rel>, phrase: Phrase| {
+            let words = &phrase.words;
+            let article =
+                |at: usize| at > 0 && set!("TheOrA").contains(&sentence.keys[at - 1].as_str());
+            let begin = words.start - usize::from(article(words.start));
+            let is_link = |n: &usize| {
+                let said = vocabulary::longest(&sentence.keys[begin - n..begin]);
+                matches!(said, Some((taken, Mark::Link(_))) if taken == *n)
+            };
+            let link = rel.and_then(|_| (1..=begin.min(3)).rev().find(is_link)).unwrap_or(0);
+            let bytes = |word: usize| sentence.words[word].start;
+            let end = sentence.words[words.end - 1].end;
+            Named {
+                rel,
+                at: bytes(begin - link)..end,
+                noun: bytes(begin)..end,
+                is_area: is_area(&knowledge, &phrase),
+                phrase,
+            }
+        };
+        let of = |item: Item| match item {
+            Item::Noun(phrase) => vec![(None, phrase)],
+            Item::Place { rel, nouns, .. } => {
+                nouns.into_iter().map(|phrase| (Some(rel), phrase)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let all = sentence.items().into_iter().flat_map(of);
+        all.filter(|(_, phrase)| phrase.person.is_none() && phrase.pronoun.is_none())
+            .map(|(rel, phrase)| named(rel, phrase))
+            .collect()
+    }
+
+    /// «не ключи, карта»: what is put instead, without what is taken back once more.
+    fn without_withdrawn<'t>(&self, behind: &'t str) -> &'t str {
+        let Some((first, rest)) = behind.split_once(',') else { return behind };
+        let sentence = Sentence::new(first, &self.mind.lexicon);
+        match super::told_aside::withdrawn(&sentence.items()) {
+            Some(_) if !rest.trim().is_empty() => rest.trim_start(),
+            _ => behind,
+        }
+    }
+}
+
+fn is_area(knowledge: &Knowledge<'_>, phrase: &Phrase) -> bool {
+    let base = knowledge.base(&phrase.noun.head);
+    !base.is_empty() && base.iter().all(|thing: &Thing| thing.area().is_some())
+}
+
+/// Whether some form of a noun is one that another may have: «стулья», «столы», but not «стула».
+fn may_be_in_place_of(one: &Phrase, other: &Phrase) -> bool {
+    let has = |phrase: &Phrase, case: &Case| {
+        phrase.cases.is_empty() || phrase.cases.iter().any(|form| form.has_case(*case))
+    };
+    Case::ALL.iter().any(|case| has(one, case) && has(other, case))
+}
+
+/// A text without the "I mean" at its end.
+fn without_i_mean(text: &str) -> &str {
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let said = set!("IMeant").iter().map(|said| said.split(' ').count()).filter(|taken| {
+        let from = keys.len().checked_sub(*taken);
+        from.is_some_and(|from| set!("IMeant").contains(&keys[from..].join(" ").as_str()))
+    });
+    match said.max().map(|taken| keys.len() - taken) {
+        Some(0) | None => text,
+        Some(kept) => text[..words[kept - 1].end].trim_end_matches([',', ' ']),
+    }
+}
