@@ -90,12 +90,13 @@ impl State {
     }
 
     /// What a line asks without a part of it that is not understood.
-    fn question_within(&self, text: &str) -> Result<Option<(String, Query)>, Error> {
+    pub(super) fn question_within(&self, text: &str) -> Result<Option<(String, Query)>, Error> {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
         for (core, _) in cores(text) {
-            let marked = core.ends_with('?');
-            let asks = marked || !text.contains('?') && asker.begins_as_question(core);
+            let before = text.find(core).map_or(text, |at| &text[..at]);
+            let begins = !before.contains('?') && asker.begins_as_question(core);
+            let asks = core.ends_with('?') || begins;
             if !asks
                 || !asker.asks_of_something(core)
                 || asker.read(core, &Memory::default()).is_err()

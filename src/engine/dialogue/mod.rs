@@ -383,7 +383,12 @@ impl Hearing<'_, '_> {
         {
             self.leave_order()?;
             self.dialogue.memory.forget_reply();
-            return self.refuse(error, Language::of(&parts.join(" ")));
+            let line = parts.join(" ");
+            let language = Language::of(&line);
+            return match self.offer_core(&line, &error, language)? {
+                true => Ok(()),
+                false => self.refuse(error, language),
+            };
         }
         for part in parts {
             if self.has_failed() && self.engine.is_command(part)? {

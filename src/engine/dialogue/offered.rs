@@ -1,8 +1,8 @@
 //! Orders that are told and wait for a yes, since it is not sure that they are meant; questions that may have been.
 
-use crate::language::Language;
 use crate::language::command::{Command, Misheard, is_order};
 use crate::language::question::{Aside, Conditional, Doubt, Unanswered, cores, rank_alone};
+use crate::language::{Language, word_ranges};
 use crate::units::{capitalized, told};
 
 use super::{Dialogue, Engine, Error, Hearing, Outcome, Reply};
@@ -83,8 +83,8 @@ impl Hearing<'_, '_> {
         Ok(true)
     }
 
-    /// «Включи стиралку, я забыла»: the order within a line of which a part is not understood waits for a yes; whether there
-    /// is one.
+    /// «Включи стиралку, я забыла»: the order within a line of which a part is not understood waits for a yes, and a question
+    /// within it is answered or offered; whether there is either.
     pub(super) fn offer_core(
         &mut self,
         line: &str,
@@ -95,16 +95,29 @@ impl Hearing<'_, '_> {
             error,
             Error::Misheard(Misheard::UnknownName { .. } | Misheard::NotUnderstood { .. })
         );
+        if !is_unheard {
+            return Ok(false);
+        }
         let memory = &self.dialogue.memory;
+        // What is left of a few words may be anything.
+        let said = word_ranges(line).len();
         let does = |core: &str| {
             let heard = self.engine.understand_in(core, &mut memory.clone());
-            is_order(core) && heard.is_ok_and(|commands| !commands.contains(&Command::Stop))
+            word_ranges(core).len() * 2 >= said
+                && (is_order(core) || self.engine.is_command(core).unwrap_or(false))
+                && heard.is_ok_and(|commands| !commands.contains(&Command::Stop))
         };
-        let found = cores(line).filter(|_| is_unheard).find(|(core, _)| does(core));
-        let Some((core, rest)) = found else { return Ok(false) };
-        let told = told!(language, "i-do-not-understand-the-rest", rest);
-        self.offer(capitalized(core), &told, language)?;
-        Ok(true)
+        if let Some((core, rest)) = cores(line).find(|(core, _)| does(core)) {
+            let told = told!(language, "i-do-not-understand-the-rest", rest);
+            self.offer(capitalized(core), &told, language)?;
+            return Ok(true);
+        }
+        // "Are the lamps on? I can't remember if I switched them off"
+        let asks = self.engine.question_within(line)?.is_some();
+        if asks {
+            self.ask(line)?;
+        }
+        Ok(asks)
     }
 
     /// An order that waits for a yes, behind the reason why.

@@ -159,7 +159,9 @@ fn begins_clause(before: &str, behind: &str) -> bool {
     let tells = word_keys(before).iter().any(|key| of_me(key) || is_first_person(key));
     let whether = keys.get(1).is_some_and(|key| key == "ли");
     let asks = vocabulary::longest(keys).is_some_and(|(_, mark)| mark.asks() && keys[0] != "есть");
-    !several::asks_in(before) && (tells || asks || whether)
+    // «Сколько их, чёрт, никак не сосчитаю?»
+    let of_me = keys.iter().any(|key| is_first_person(key));
+    of_me || !several::asks_in(before) && (tells || asks || whether)
 }
 
 /// A line without an "isn't it" in its midst, which denies nothing: "It's in there, isn't it, but where?"

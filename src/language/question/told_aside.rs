@@ -202,11 +202,12 @@ pub(super) fn is_polite(keys: &[String]) -> bool {
     }
 }
 
-/// Whether a part ends as questions do, and neither is polite nor begs by that.
+/// Whether a part ends as questions do, and neither is polite nor begs by that, nor hangs on what was said: "don't we?"
 pub(super) fn is_marked(part: &str) -> bool {
     let keys = word_keys(part);
     let wishes = is_wish(&keys) && !several::asks_outright(part);
-    part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes
+    let is_tag = several::is_tag(&keys.join(" "));
+    part.ends_with('?') && !only_begs(&keys) && !is_polite(&keys) && !wishes && !is_tag
 }
 
 /// "Someone told me there's a cart in the hall": that there is something is told, where "there" stands before "is".
