@@ -34,6 +34,7 @@ mod everyday;
 mod focus;
 mod follow;
 mod grammar;
+mod heads;
 mod heeded;
 mod here;
 mod introduced;

@@ -1,0 +1,101 @@
+//! What a line says of what it means holds of what is told: a door is no room, "all" are those that were told, a desk on which
+//! a mug is looked for is no mug; over all things of maps, and where that cannot be, it is asked back.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use orthoframe::Engine;
+use orthoframe::engine::Memory;
+use orthoframe_language::command::Command;
+use orthoframe_language::question::{Answer, Said, Thing};
+use orthoframe_language::{Case, NounPhrase, Number, WordHints, english};
+use orthoframe_map::{Entity, World};
+use orthoframe_units::{ReplicaId, TypeId, name_key};
+
+use crate::files::long;
+use crate::talk::engine;
+
+const OFFICE: &str = "../shared/data/rmf/office.building.yaml";
+const CLINIC: &str = "../shared/data/rmf/clinic.building.yaml";
+
+/// Maps of ours and of others.
+fn maps() -> impl Iterator<Item = Engine> {
+    const MAPS: [&str; 5] = [
+        OFFICE,
+        "../shared/data/procthor/house_6.json",
+        "../shared/data/virtualhome/TestScene1_graph.json",
+        "maps/rb2.toml",
+        "../shared/data/procthor/house_3.json",
+    ];
+    MAPS.into_iter().take(if long() { 5 } else { 3 }).filter_map(engine)
+}
+
+fn ask(engine: &Engine, line: &str, memory: &mut Memory) -> Option<Answer> {
+    engine.ask(line, memory).expect("there is a map").ok()
+}
+
+fn replica(id: ReplicaId) -> Thing {
+    Thing::Entity(Entity::Replica(id))
+}
+
+/// The things of each type, by the type.
+fn by_type(world: &World) -> BTreeMap<TypeId, Vec<ReplicaId>> {
+    let mut kinds: BTreeMap<TypeId, Vec<ReplicaId>> = BTreeMap::new();
+    for thing in world.replicas.values() {
+        if let Some(kind) = world.objects[&thing.object].object_type {
+            kinds.entry(kind).or_default().push(thing.id);
+        }
+    }
+    kinds
+}
+
+/// The name of a type in both languages.
+fn names(world: &World, kind: TypeId) -> (String, String) {
+    let entry = world.types.object.get(Some(kind)).expect("a type that is used");
+    (entry.name.clone(), entry.name_en.to_lowercase())
+}
+
+fn many(russian: &str, case: Case) -> String {
+    NounPhrase::parse(russian, &WordHints::default()).form(case, Number::Plural).to_lowercase()
+}
+
+/// one sort alone whose name ends with the word.
+#[test]
+fn the_end_of_a_name_is_not_one_sort_alone() {
+    let mut asked = 0;
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        let kinds = by_type(world);
+        let called = |kind: &TypeId| {
+            let entry = world.types.object.get(Some(*kind)).expect("a type that is used");
+            entry
+                .synonyms
+                .iter()
+                .chain([&entry.name])
+                .map(|name| name_key(name))
+                .collect::<Vec<_>>()
+        };
+        let whole: BTreeSet<String> = kinds.keys().flat_map(called).collect();
+        let ends: BTreeSet<String> = whole
+            .iter()
+            .filter_map(|name| name.rsplit_once(' '))
+            .map(|(_, end)| end.to_owned())
+            .filter(|end| !whole.contains(end))
+            .collect();
+        for end in ends {
+            let own = english::words_of(&end);
+            let meant = kinds.iter().filter(|(kind, _)| {
+                let (_, name) = names(world, **kind);
+                own.iter().any(|word| word.to_lowercase() == name)
+            });
+            let meant: BTreeSet<Thing> =
+                meant.flat_map(|(_, all)| all).copied().map(replica).collect();
+            let question = format!("Сколько {}?", many(&end, Case::Genitive));
+            let Some(answer) = ask(&engine, &question, &mut Memory::default()) else { continue };
+            let told: BTreeSet<Thing> = answer.things.iter().copied().collect();
+            assert!(meant.is_subset(&told), "{question} {}", answer.text);
+            asked += usize::from(!meant.is_empty());
+        }
+    }
+    assert!(asked > 0, "{asked}");
+}
+
