@@ -99,3 +99,37 @@ fn the_end_of_a_name_is_not_one_sort_alone() {
     assert!(asked > 0, "{asked}");
 }
 
+/// "How wide is the door coe?", where a room or a point is called so: the coe_door, or nothing; no room is a door.
+#[test]
+fn what_is_called_a_door_is_a_door() {
+    let (mut told, mut refused) = (0, 0);
+    for engine in [OFFICE, CLINIC].into_iter().filter_map(engine).chain(maps().skip(1)) {
+        let world = engine.world().expect("there is a map");
+        let doors: Vec<&str> = world.doors.values().map(|door| door.name.as_str()).collect();
+        let is_door = |entity: &Entity| matches!(entity, Entity::Door(_));
+        let others = world.names().map(|(entity, _)| entity).filter(|entity| !is_door(entity));
+        let others: BTreeSet<String> = others.map(|e| world.name(e).to_owned()).collect();
+        let ends = world.doors.values().filter_map(|door| door.name_en.rsplit_once(['_', ' ']));
+        let own = ends.map(|(own, _)| own.to_owned());
+        for name in own.chain(others.into_iter().take(60)) {
+            if doors.contains(&name.as_str()) || name.is_empty() {
+                continue;
+            }
+            for question in
+                [format!("How wide is the door {name}?"), format!("Какая ширина у двери {name}?")]
+            {
+                let Some(answer) = ask(&engine, &question, &mut Memory::default()) else {
+                    refused += 1;
+                    continue;
+                };
+                let opens = |thing: &Thing| {
+                    matches!(thing, Thing::Opening(_) | Thing::Entity(Entity::Door(_)))
+                };
+                assert!(answer.things.iter().all(opens), "{question} {}", answer.text);
+                told += answer.things.len();
+            }
+        }
+    }
+    assert!(told > 4 && refused > 20, "{told} told, {refused} refused");
+}
+
