@@ -133,3 +133,42 @@ fn what_is_called_a_door_is_a_door() {
     assert!(told > 4 && refused > 20, "{told} told, {refused} refused");
 }
 
+/// "How many cups are there? Are all clean?": the cups. Where nothing was told, nothing is meant; "everything" is all there is.
+#[test]
+fn all_are_those_that_were_told() {
+    let mut asked = 0;
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        for (kind, things) in by_type(world).iter().filter(|(_, all)| all.len() > 1) {
+            let (russian, english) = names(world, *kind);
+            let lists = [
+                (
+                    format!("How many {} are there?", english::plural(&english)),
+                    ["Are all open?", "Are all clean?"],
+                ),
+                (
+                    format!("Сколько {}?", many(&russian, Case::Genitive)),
+                    ["Все ли открыты?", "Все чистые?"],
+                ),
+            ];
+            for (list, questions) in lists {
+                for question in questions {
+                    let mut memory = Memory::default();
+                    let nothing = engine.ask(question, &mut memory).expect("there is a map");
+                    assert!(nothing.is_err(), "{question} {}", nothing.unwrap().text);
+                    let Some(told) = ask(&engine, &list, &mut memory) else { continue };
+                    let told: BTreeSet<Thing> = told.things.into_iter().collect();
+                    if !things.iter().all(|id| told.contains(&replica(*id))) {
+                        continue;
+                    }
+                    let Some(answer) = ask(&engine, question, &mut memory) else { continue };
+                    let of_them = answer.things.iter().all(|thing| told.contains(thing));
+                    assert!(of_them, "{list} {question} {}", answer.text);
+                    asked += 1;
+                }
+            }
+        }
+    }
+    assert!(asked > 20, "{asked}");
+}
+

@@ -348,6 +348,7 @@ impl<'s, 't> Frame<'s, 't> {
         // «Вся ли мебель деревянная?»: the small word stands between.
         let all = frame.has(Mark::All) || frame.has(Mark::Each);
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
+        frame.all_of_those_told(items.len(), referent)?;
             first.noun.all = true;
         }
         frame.excepted.clone_from(&frame.except);
