@@ -172,3 +172,39 @@ fn all_are_those_that_were_told() {
     assert!(asked > 20, "{asked}");
 }
 
+/// "Where is the mug on the desk?" of several desks: what is told is a mug, or it is asked which desk.
+#[test]
+fn where_something_is_on_one_of_several_tells_of_no_other_kind() {
+    let mut asked = 0;
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        let kinds = by_type(world);
+        let bears = |id: &ReplicaId| world.has_trait(*id, "support");
+        let places: Vec<_> =
+            kinds.iter().filter(|(_, all)| all.len() > 1 && all.iter().all(bears)).collect();
+        let carried = |id: &ReplicaId| world.has_trait(*id, "portable");
+        for (kind, _) in kinds.iter().filter(|(_, all)| all.iter().all(carried)).take(25) {
+            for (place, places_of) in &places {
+                let (name, place) = (names(world, *kind).1, names(world, **place).1);
+                for question in [
+                    format!("Where is the {name} on the {place}?"),
+                    format!("Where is the {name} not on the {place}?"),
+                    format!("Where is the {name} that is not on the {place}?"),
+                ] {
+                    let Some(answer) = ask(&engine, &question, &mut Memory::default()) else {
+                        continue;
+                    };
+                    if answer.said != Said::Found {
+                        continue;
+                    }
+                    let is_place =
+                        |thing: &Thing| places_of.iter().any(|id| replica(*id) == *thing);
+                    assert!(!answer.things.iter().any(is_place), "{question} {}", answer.text);
+                    asked += 1;
+                }
+            }
+        }
+    }
+    assert!(asked > 10, "{asked}");
+}
+

@@ -53,6 +53,8 @@ impl Knowledge<'_> {
     /// As [`Knowledge::definite`], but of a few things that are meant alike, all: where each of them is, is soon told.
     fn few(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
         const MOST: usize = 5;
+        // "The mug on the desk", of two desks: the desks are not what is asked of.
+        let own = |t: &Thing| t.replica().is_some() && self.base(&noun.head).contains(t);
         match self.definite(noun) {
             Err(Doubt::Ambiguous { candidates, .. })
                 if candidates.len() <= MOST
