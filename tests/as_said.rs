@@ -208,3 +208,31 @@ fn where_something_is_on_one_of_several_tells_of_no_other_kind() {
     assert!(asked > 10, "{asked}");
 }
 
+/// Lifts are asked of by where they stop: a cabin is on no storey rather than another.
+#[test]
+fn lifts_are_on_the_storeys_where_they_stop() {
+    let Some(engine) = engine(CLINIC) else { return };
+    let world = engine.world().expect("there is a map");
+    let storeys: Vec<&str> = world.maps.values().map(|map| map.name.as_str()).collect();
+    let lines = [
+        ["How many lifts are there?", "Which floors do they go to?"],
+        ["Сколько здесь лифтов?", "На какие этажи они ходят?"],
+    ];
+    let mut questions = vec![
+        "How many lifts are there and which floors do they go to?".to_owned(),
+        "Сколько здесь лифтов и на какие этажи они ходят?".to_owned(),
+    ];
+    for (name, _) in &world.domain.lifts {
+        questions.push(format!("Which floors does {name} go to?"));
+        questions.push(format!("Which floor is {name} on?"));
+        questions.push(format!("На какие этажи ходит лифт {name}?"));
+    }
+    let alone = questions.iter().map(|question| vec![question.as_str()]);
+    for lines in alone.chain(lines.iter().map(|lines| lines.to_vec())) {
+        let mut memory = Memory::default();
+        let answer = lines.iter().map(|line| ask(&engine, line, &mut memory)).last().flatten();
+        let text = answer.unwrap_or_else(|| panic!("{lines:?} is not understood")).text;
+        assert!(storeys.iter().all(|storey| text.contains(storey)), "{lines:?} {text}");
+    }
+}
+

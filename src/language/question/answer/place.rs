@@ -376,6 +376,9 @@ impl Knowledge<'_> {
         let mut found = self.few(noun)?;
         // "Which room is it in?" of a thing and a room that were named asks of the thing.
         if found.iter().any(|thing| thing.area().is_none()) {
+        if let Some(stops) = self.stops_of_lifts(noun, found.clone()) {
+            return Ok(stops);
+        }
             found.retain(|thing| thing.area().is_none());
         }
         let mut rooms: Vec<Thing> = Vec::new();
