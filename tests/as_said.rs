@@ -208,6 +208,59 @@ fn where_something_is_on_one_of_several_tells_of_no_other_kind() {
     assert!(asked > 10, "{asked}");
 }
 
+/// «Где столы? Поезжай к ним»: to each of them; "put it on them", to one of which nothing says which, is asked back.
+#[test]
+fn to_them_is_to_all_or_it_is_asked() {
+    let (mut gone, mut asked_back) = (0, 0);
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        let stands =
+            |id: &ReplicaId| world.has_trait(*id, "support") && !world.has_trait(*id, "portable");
+        let Some(thing) = world.replicas.values().find(|r| world.has_trait(r.id, "portable"))
+        else {
+            continue;
+        };
+        for (kind, things) in by_type(world) {
+            if !(2..9).contains(&things.len()) || !things.iter().all(stands) {
+                continue;
+            }
+            let (russian, english) = names(world, kind);
+            let taken =
+                NounPhrase::parse(&thing.name, &WordHints::default()).case(Case::Accusative);
+            for (list, go, put) in [
+                (
+                    format!("Where are the {}?", english::plural(&english)),
+                    "Go to them",
+                    format!("Put {} on them", thing.name_en),
+                ),
+                (
+                    format!("Где {}?", many(&russian, Case::Nominative)),
+                    "Поезжай к ним",
+                    format!("Отнеси {taken} к ним"),
+                ),
+            ] {
+                let mut memory = Memory::default();
+                let Some(told) = ask(&engine, &list, &mut memory) else { continue };
+                let told: BTreeSet<Thing> = told.things.into_iter().collect();
+                if told.len() < 2 {
+                    continue;
+                }
+                if let Ok(commands) = engine.understand_in(go, &mut memory.clone()) {
+                    let whither = commands.iter().filter_map(Command::place);
+                    let whither: BTreeSet<Thing> =
+                        whither.map(|place| Thing::Entity(place.anchor)).collect();
+                    assert_eq!(whither, told, "{list} {go}");
+                    gone += 1;
+                }
+                let ordered = engine.understand_in(&put, &mut memory.clone());
+                assert!(ordered.is_err(), "{list} {put}: {ordered:?}");
+                asked_back += 1;
+            }
+        }
+    }
+    assert!(gone > 3 && asked_back > 3, "{gone} {asked_back}");
+}
+
 /// Lifts are asked of by where they stop: a cabin is on no storey rather than another.
 #[test]
 fn lifts_are_on_the_storeys_where_they_stop() {
