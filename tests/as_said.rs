@@ -261,6 +261,36 @@ fn to_them_is_to_all_or_it_is_asked() {
     assert!(gone > 3 && asked_back > 3, "{gone} {asked_back}");
 }
 
+/// "Come to me": where the person is, only the person can tell, wherever the robot has been.
+#[test]
+fn who_calls_is_where_he_said_to_be() {
+    let mut gone = 0;
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        for room in world.areas.values().take(8) {
+            let at = NounPhrase::parse(&room.name, &WordHints::default());
+            let at = orthoframe_language::russian::where_at(&at);
+            for (told, order) in [
+                (format!("I am in the {}.", room.name_en), "Come to me"),
+                (format!("Я {at}."), "Подъедь ко мне"),
+            ] {
+                let mut memory = Memory::default();
+                let unknown = engine.understand_in(order, &mut memory);
+                assert!(unknown.is_err(), "{order}: {unknown:?}");
+                if ask(&engine, &told, &mut memory).is_none() {
+                    continue;
+                }
+                let Ok(commands) = engine.understand_in(order, &mut memory) else { continue };
+                let whither = commands.iter().filter_map(Command::place).map(|place| place.anchor);
+                let whither: Vec<Entity> = whither.collect();
+                assert_eq!(whither, [Entity::Area(room.id)], "{told} {order}");
+                gone += 1;
+            }
+        }
+    }
+    assert!(gone > 5, "{gone}");
+}
+
 /// Lifts are asked of by where they stop: a cabin is on no storey rather than another.
 #[test]
 fn lifts_are_on_the_storeys_where_they_stop() {
