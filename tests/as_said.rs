@@ -319,3 +319,35 @@ fn lifts_are_on_the_storeys_where_they_stop() {
     }
 }
 
+/// "Put the book on the sofa. Turn off the light there": in the room of the sofa, where none is on it.
+#[test]
+fn what_is_switched_there_is_in_the_room() {
+    let mut switched = 0;
+    for engine in maps().skip(1) {
+        let (world, relations) =
+            (engine.world().expect("there is a map"), engine.relations().unwrap());
+        let Some(thing) = world.replicas.values().find(|r| world.has_trait(r.id, "portable"))
+        else {
+            continue;
+        };
+        let bears =
+            |id: &ReplicaId| world.has_trait(*id, "support") && !world.has_trait(*id, "portable");
+        for place in world.replicas.values().filter(|replica| bears(&replica.id)).take(12) {
+            let mut memory = Memory::default();
+            let put = format!("Put {} on {}", thing.name_en, place.name_en);
+            if engine.understand_in(&put, &mut memory).is_err() {
+                continue;
+            }
+            let Ok(commands) = engine.understand_in("Turn off the light there", &mut memory) else {
+                continue;
+            };
+            for what in commands.iter().filter_map(|command| command.what()) {
+                let Entity::Replica(id) = what.id else { continue };
+                assert_eq!(relations.area_of(id), relations.area_of(place.id), "{put}");
+                switched += 1;
+            }
+        }
+    }
+    assert!(switched > 2, "{switched}");
+}
+
