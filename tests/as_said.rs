@@ -319,6 +319,76 @@ fn lifts_are_on_the_storeys_where_they_stop() {
     }
 }
 
+/// "How many cups are there? What are they called?": the cups; and of many, none is "it".
+#[test]
+fn those_that_were_told_are_named_and_none_of_many_is_it() {
+    let (mut named, mut unclear) = (0, 0);
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        for (kind, things) in by_type(world).iter().filter(|(_, all)| all.len() > 1) {
+            let (russian, english) = names(world, *kind);
+            for (list, name, it) in [
+                (
+                    format!("How many {} are there?", english::plural(&english)),
+                    "What are they called?",
+                    "How big is it?",
+                ),
+                (
+                    format!("Сколько {}?", many(&russian, Case::Genitive)),
+                    "Как они называются?",
+                    "Какого она цвета?",
+                ),
+            ] {
+                let mut memory = Memory::default();
+                let Some(told) = ask(&engine, &list, &mut memory) else { continue };
+                if told.things.len() != things.len() {
+                    continue;
+                }
+                if let Some(answer) = ask(&engine, name, &mut memory.clone()) {
+                    let all: BTreeSet<&Thing> = answer.things.iter().collect();
+                    assert_eq!(all, told.things.iter().collect(), "{list} {name} {}", answer.text);
+                    named += 1;
+                }
+                if things.len() > 8 {
+                    let unanswered = engine.ask(it, &mut memory).expect("there is a map");
+                    let unanswered = unanswered.expect_err("one of many was taken");
+                    assert_eq!(unanswered.doubt.kind(), "incomplete", "{list} {it}");
+                    unclear += 1;
+                }
+            }
+        }
+    }
+    assert!(named > 10 && unclear > 2, "{named} named, {unclear} unclear");
+}
+
+/// "They sent me to the lab. Which door do I go through?": to the lab, or it is not understood; never any door that there is.
+#[test]
+fn a_door_to_go_through_leads_somewhere() {
+    let mut refused = 0;
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        for room in world.areas.values().take(6) {
+            let name = &room.name_en;
+            for line in [
+                format!("They sent me to the {name}. Which door do I go through?"),
+                format!("My boss waits in the {name}, which door do I go through?"),
+                format!("Someone wants me in the {name}; which door do I go through?"),
+                "Which door do I go through?".to_owned(),
+                "Через какую дверь мне идти?".to_owned(),
+            ] {
+                match ask(&engine, &line, &mut Memory::default()) {
+                    None => refused += 1,
+                    Some(answer) => {
+                        let own = answer.text.to_lowercase().contains(&name.to_lowercase());
+                        assert!(own, "{line} {}", answer.text);
+                    }
+                }
+            }
+        }
+    }
+    assert!(refused > 10, "{refused}");
+}
+
 /// "Put the book on the sofa. Turn off the light there": in the room of the sofa, where none is on it.
 #[test]
 fn what_is_switched_there_is_in_the_room() {

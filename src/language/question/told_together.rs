@@ -311,6 +311,12 @@ impl Knowledge<'_> {
         match (self.kind_of(thing), thing) {
             (Some(kind), _) => self.members(&self.lexicon().kind(kind).extension),
             (None, Thing::Entity(Entity::Door(_))) => self.members(&Extension::Doors),
+            (None, _)
+                if let chargers @ [_, ..] = &self.members(&Extension::Chargers)[..]
+                    && chargers.contains(&thing) =>
+            {
+                chargers.to_vec()
+            }
             (None, _) => vec![thing],
         }
     }

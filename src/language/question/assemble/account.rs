@@ -121,11 +121,22 @@ impl Frame<'_, '_> {
         let goes = self.has(Mark::Can)
             && self.has(Mark::Move)
             && matches!(query, Query::Find(noun) | Query::Count(noun) if !by_way(noun));
+        // "Which door do I go through?": whither is not said.
+        let any_doors = |noun: &Noun| {
+            let head = &noun.head;
+            let any = head.things.is_none() && head.named.is_empty();
+            self.is_doors(noun) && any && noun.restrictions.is_empty()
+        };
+        let through = self.links.iter().any(|(rel, _)| *rel == Rel::Through);
+        let nowhither = (through || self.has(Mark::Move))
+            && !self.has(Mark::Can)
+            && matches!(query, Query::Find(noun) if any_doors(noun));
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
             || told.parted
             || told.itself
+            || nowhither
             || self.is_torn(query)
             || self.is_misplaced(query)
             || self.only_denies(query)
