@@ -361,6 +361,46 @@ fn those_that_were_told_are_named_and_none_of_many_is_it() {
     assert!(named > 10 && unclear > 2, "{named} named, {unclear} unclear");
 }
 
+/// «Сколько стульев на кухне? А в спальне? А всего?»: the sum of the two, and all that there are beside it.
+#[test]
+fn a_sum_of_places_hides_no_others() {
+    let mut more = 0;
+    for engine in maps().skip(1) {
+        let world = engine.world().expect("there is a map");
+        let rooms: Vec<_> = world.areas.values().take(3).collect();
+        let [first, second, ..] = rooms[..] else { continue };
+        for (kind, things) in by_type(world).iter().filter(|(_, all)| all.len() > 2) {
+            let plural = english::plural(&names(world, *kind).1);
+            let mut memory = Memory::default();
+            let lines = [
+                format!("How many {plural} are there in the {}?", first.name_en),
+                format!("And in the {}?", second.name_en),
+            ];
+            let sum: Option<f64> = lines
+                .iter()
+                .map(|line| ask(&engine, line, &mut memory).and_then(|answer| answer.number))
+                .sum();
+            let whole =
+                ask(&engine, &format!("How many {plural} are there?"), &mut Memory::default());
+            let whole = whole.filter(|whole| whole.things.len() == things.len());
+            let (Some(sum), Some(whole)) = (sum, whole.and_then(|whole| whole.number)) else {
+                continue;
+            };
+            let Some(answer) = ask(&engine, "And in total?", &mut memory) else { continue };
+            if sum > 0.0 && whole > sum {
+                let (sum, whole) = (sum.to_string(), whole.to_string());
+                assert!(
+                    answer.text.contains(&sum) && answer.text.contains(&whole),
+                    "{lines:?} {}",
+                    answer.text
+                );
+                more += 1;
+            }
+        }
+    }
+    assert!(more > 2, "{more}");
+}
+
 /// "They sent me to the lab. Which door do I go through?": to the lab, or it is not understood; never any door that there is.
 #[test]
 fn a_door_to_go_through_leads_somewhere() {

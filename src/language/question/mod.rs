@@ -687,6 +687,7 @@ impl Asker<'_> {
             so: denial::truth(&Sentence::new(text, &self.mind.lexicon), &answer),
             ..answer
         });
+        let answer = answer.map(|answer| self.with_whole(text, memory, answer));
         // What is left is so now.
         if let Ok(answer) = &answer
             && !is_left
