@@ -58,6 +58,7 @@ fn many(russian: &str, case: Case) -> String {
     NounPhrase::parse(russian, &WordHints::default()).form(case, Number::Plural).to_lowercase()
 }
 
+/// «Сколько шкафов?» on a map of bookcases («книжный шкаф») and cabinets: of whatever the language calls so, and never of the
 /// one sort alone whose name ends with the word.
 #[test]
 fn the_end_of_a_name_is_not_one_sort_alone() {
@@ -461,3 +462,33 @@ fn what_is_switched_there_is_in_the_room() {
     assert!(switched > 2, "{switched}");
 }
 
+/// «Горит что-нибудь?» asks for what gives light, and not for its switches; «каких они цветов» for colours, and not for flowers.
+#[test]
+fn what_burns_gives_light_and_colours_are_no_flowers() {
+    let mut lit = 0;
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        for question in ["Что горит?", "А теперь горит что-нибудь?", "Горит ли что-нибудь?"]
+        {
+            let Some(answer) = ask(&engine, question, &mut Memory::default()) else { continue };
+            let gives_light = |thing: &Thing| match thing {
+                Thing::Entity(Entity::Replica(id)) => world.has_trait(*id, "light"),
+                _ => false,
+            };
+            assert!(answer.things.iter().all(gives_light), "{question} {}", answer.text);
+            lit += answer.things.len();
+        }
+        for (kind, _) in by_type(world).into_iter().take(12) {
+            let kinds = many(&names(world, kind).0, Case::Genitive);
+            let said = |colours: &str| {
+                let question = format!("Сколько {kinds} и {colours}?");
+                ask(&engine, &question, &mut Memory::default()).map(|answer| answer.text)
+            };
+            let plain = said("какого они цвета");
+            for colours in ["каких они цветов", "каких цветов"] {
+                assert_eq!(said(colours), plain, "{kinds}, {colours}");
+            }
+        }
+    }
+    assert!(lit > 0, "{lit}");
+}

@@ -57,9 +57,7 @@ impl Knowledge<'_> {
         let own = |t: &Thing| t.replica().is_some() && self.base(&noun.head).contains(t);
         match self.definite(noun) {
             Err(Doubt::Ambiguous { candidates, .. })
-                if candidates.len() <= MOST
-                    && candidates.iter().all(|t| t.replica().is_some())
-                    && noun.means_one() =>
+                if candidates.len() <= MOST && candidates.iter().all(own) && noun.means_one() =>
             {
                 Ok(candidates)
             }
@@ -376,10 +374,10 @@ impl Knowledge<'_> {
         let mut found = self.few(noun)?;
         // "Which room is it in?" of a thing and a room that were named asks of the thing.
         if found.iter().any(|thing| thing.area().is_none()) {
+            found.retain(|thing| thing.area().is_none());
+        }
         if let Some(stops) = self.stops_of_lifts(noun, found.clone()) {
             return Ok(stops);
-        }
-            found.retain(|thing| thing.area().is_none());
         }
         let mut rooms: Vec<Thing> = Vec::new();
         let mut parts: Vec<String> = Vec::new();

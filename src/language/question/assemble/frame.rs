@@ -348,10 +348,10 @@ impl<'s, 't> Frame<'s, 't> {
             let noun = things(meant, "it");
             frame.nouns.push(Subject { noun, at: items.len(), negated: false, nominative: true });
         }
+        frame.all_of_those_told(items.len(), referent)?;
         // «Вся ли мебель деревянная?»: the small word stands between.
         let all = frame.has(Mark::All) || frame.has(Mark::Each);
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
-        frame.all_of_those_told(items.len(), referent)?;
             first.noun.all = true;
         }
         frame.excepted.clone_from(&frame.except);
