@@ -492,3 +492,43 @@ fn what_burns_gives_light_and_colours_are_no_flowers() {
     }
     assert!(lit > 0, "{lit}");
 }
+
+/// «Сколько стульев на кухне? А в спальне есть ещё?», "Is there another in the bedroom?": chairs, or it is not understood;
+/// never whatever is there.
+#[test]
+fn another_is_of_the_kind_that_was_asked_for() {
+    let (mut told, mut refused) = (0, 0);
+    for engine in maps() {
+        let world = engine.world().expect("there is a map");
+        let rooms: Vec<_> = world.areas.values().take(3).collect();
+        for (kind, things) in by_type(world) {
+            let (russian, english) = names(world, kind);
+            for room in &rooms {
+                let at = NounPhrase::parse(&room.name, &WordHints::default());
+                let at = orthoframe_language::russian::where_at(&at);
+                for (opening, line) in [
+                    (
+                        format!("How many {} are there?", english::plural(&english)),
+                        format!("Is there another in the {}?", room.name_en),
+                    ),
+                    (
+                        format!("Сколько {}?", many(&russian, Case::Genitive)),
+                        format!("А {at} есть ещё?"),
+                    ),
+                ] {
+                    let mut memory = Memory::default();
+                    refused += usize::from(ask(&engine, &line, &mut memory).is_none());
+                    let Some(before) = ask(&engine, &opening, &mut memory) else { continue };
+                    if before.things.len() != things.len() {
+                        continue;
+                    }
+                    let Some(answer) = ask(&engine, &line, &mut memory) else { continue };
+                    let own = |thing: &Thing| things.iter().any(|id| replica(*id) == *thing);
+                    assert!(answer.things.iter().all(own), "{opening} {line} {}", answer.text);
+                    told += 1;
+                }
+            }
+        }
+    }
+    assert!(told > 10 && refused > 10, "{told} told, {refused} refused");
+}

@@ -90,8 +90,11 @@ impl Frame<'_, '_> {
         // «А в ванной есть хоть одна?»: one of a kind that was spoken of, and not anything at all.
         static ONE: Set = Set::named("OneWord");
         let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();
+        // «А в ванной есть ещё?»: of what, is not said.
+        let another = !(self.has(Mark::Anything) || self.has(Mark::What))
+            && self.sentence.keys.iter().any(|key| set!("AnotherWord").contains(&key.as_str()));
         let one = matches!(query, Query::Exists { what, .. } if what.iter().all(bare))
-            && self.sentence.keys.iter().any(|key| ONE.contains(&key.as_str()));
+            && (another || self.sentence.keys.iter().any(|key| ONE.contains(&key.as_str())));
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "Is its door locked?": of the door, and not whether the room is one.
