@@ -151,7 +151,7 @@ fn named_by_end(
         let whole = format!("{own} {}", doors.english);
         let is_door = |entity: &Entity| matches!(entity, Entity::Door(_));
         let named = names(&whole).iter().any(is_door) && !alone.iter().any(is_door);
-        named.then(|| (kind.start..next.end, whole))
+        named.then_some((kind.start..next.end, whole))
     })
 }
 
