@@ -4,6 +4,7 @@ mod accounted;
 mod after_the_order;
 mod agreement;
 mod architecture;
+mod as_said;
 mod asides;
 mod asked_back;
 mod assembly;

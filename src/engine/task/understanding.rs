@@ -202,12 +202,15 @@ impl State {
         if let Some(here) = self.place_of_robot() {
             memory.stand(Thing::Entity(here));
             let to_person = |c: &Command<Entity>| matches!(c, Command::Bring { to: None, .. });
-            memory.speak_from(Thing::Entity(here), commands.iter().any(to_person));
+            if commands.iter().any(to_person) {
+                memory.bring_to(Thing::Entity(here));
+            }
         }
-        // Who calls stands where he was when he sent the robot away.
-        if let ([Command::ComeHere], None) = (&commands[..], self.person)
-            && let Some(Thing::Entity(anchor)) = memory.place_of_speaker()
-        {
+        // Where who calls is, only he can tell; the robot need not be with him.
+        if let ([Command::ComeHere], None) = (&commands[..], self.person) {
+            let Some(Thing::Entity(anchor)) = memory.place_of_speaker() else {
+                return Err(Misheard::person_unknown(&resolved).into());
+            };
             let to = Placement::new(Relation::At, anchor);
             commands = vec![Command::GoTo { to, via: None, facing: None }];
         }

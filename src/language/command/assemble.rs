@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::clauses::{Clause, clauses};
 use super::grammar::{Argument, Item, Reference, Sentence, items};
 use super::misheard::WHITHER;
-use super::roles::{cases_after, choose, direction, question, restores, within};
+use super::roles::{cases_after, choose, direction, is_them, question, restores, within};
 use super::vocabulary::{Haunt, Role, Verb};
 use super::{Command, Facing, Listener, Misheard, Placement, Relation, Thing, gathered};
 use crate::words::{Case, Hit, Language};
@@ -533,7 +533,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             // "Go to them": to each, one after the other.
             if verb == Verb::GoTo
                 && link.relation == Relation::At
-                && matches!(argument.reference, Reference::Them)
+                && is_them(argument, link, &self.sentence.text[self.sentence.span(&argument.words)])
                 && let [before @ .., _] = &self.last[..]
             {
                 others.extend_from_slice(before);

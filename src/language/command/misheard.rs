@@ -128,6 +128,14 @@ pub enum Misheard {
 pub(super) const WHITHER: (&str, &str) = ("куда положить", "where to put it");
 
 impl Misheard {
+    /// "Come to me", where the person has not said where that is.
+    #[must_use]
+    pub fn person_unknown(order: &str) -> Self {
+        let text = Source::own(OwnText::Order, order);
+        let (question, english) = ("где вы", "where you are");
+        Self::Incomplete { question, english, text, at: (0, order.len()).into() }
+    }
+
     /// Whether all that is lacking is whither something goes.
     #[must_use]
     pub fn asks_whither(&self) -> bool {

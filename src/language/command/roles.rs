@@ -4,6 +4,8 @@
 use super::grammar::{Argument, Reference};
 use super::vocabulary::{Link, Role, Verb};
 use super::{Placement, Relation};
+use crate::sets::set;
+use crate::units::name_key;
 use crate::words::{Case, Hit};
 
 /// All that a name may mean in these cases.
@@ -78,6 +80,16 @@ pub(super) fn by_verb(verb: Verb) -> Role {
         | Verb::ThrowAway
         | Verb::Leave => Role::Whither,
         _ => Role::Where,
+    }
+}
+
+/// Whether an argument, said so, is several things: «к ним», where «с ним» is one.
+pub(super) fn is_them<T>(argument: &Argument<'_, T>, link: Link, said: &str) -> bool {
+    let dative = cases_after(link).contains(&Case::Dative);
+    match argument.reference {
+        Reference::Them => true,
+        Reference::Pronoun => dative && set!("ThemInDative").contains(&name_key(said).as_str()),
+        _ => false,
     }
 }
 

@@ -1,19 +1,41 @@
 //! «А всего?», "And in the whole house?": the sum of what was counted place by place, or all that there is.
 //!
-//! Invariant: the sum is of the places that were spoken of, and named with them; the whole map is meant where it is said, or
-//! where one place only was spoken of.
+//! Invariant: the sum is of the places that were spoken of, and named with them, with all that there is beside it where that
+//! is more; the whole map is meant where it is said, or where one place only was spoken of.
 
 use std::collections::BTreeSet;
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::{Noun, Query, Rel, Restriction, Thing};
-use super::{Asker, Memory, vocabulary};
+use super::{Answer, Asker, Memory, vocabulary};
 use crate::words::word_keys;
 
 impl Asker<'_> {
     /// The last question without its place, or of all the places of the last ones.
     pub(super) fn altogether(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        match self.asks_everywhere(text)? {
+            true => without_place(last),
+            false => self.sum_of_counted(memory).or_else(|| without_place(last)),
+        }
+    }
+
+    /// «Сколько окон в спальне? А в ванной? А всего?»: beside the sum, how many there are on the whole map, where that is more.
+    pub(super) fn with_whole(&self, text: &str, memory: &Memory, answer: Answer) -> Answer {
+        let is_sum = matches!(&answer.query, Query::Count(noun) if !noun.restrictions.is_empty())
+            && memory.counted.len() > 1
+            && self.asks_everywhere(&self.plain(text)) == Some(false);
+        let whole = without_place(&answer.query).filter(|_| is_sum);
+        let all =
+            whole.and_then(|whole| self.knowledge(answer.language, memory).answer(&whole).ok());
+        match all.filter(|all| all.number > answer.number) {
+            Some(all) => Answer { text: format!("{} {}", answer.text, all.text), ..answer },
+            None => answer,
+        }
+    }
+
+    /// Whether what asks for all of what was counted says that the whole building is meant; none of what asks more.
+    fn asks_everywhere(&self, text: &str) -> Option<bool> {
         let keys = word_keys(text);
         let (mut rest, mut total, mut everywhere) = (Vec::new(), false, false);
         let mut at = 0;
@@ -30,13 +52,8 @@ impl Asker<'_> {
                 }
             }
         }
-        if !(total || everywhere) || !self.asks_nothing_else(&rest.join(" ")) {
-            return None;
-        }
-        match everywhere {
-            true => without_place(last),
-            false => self.sum_of_counted(memory).or_else(|| without_place(last)),
-        }
+        let asks = (total || everywhere) && self.asks_nothing_else(&rest.join(" "));
+        asks.then_some(everywhere)
     }
 
     fn asks_nothing_else(&self, text: &str) -> bool {

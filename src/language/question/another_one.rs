@@ -136,6 +136,39 @@ impl Asker<'_> {
         Some(Query::Exists { what, either: false, denial: Denial::None })
     }
 
+    /// «Сколько стульев на кухне? А в спальне есть ещё?», "Is there another in the bedroom?": of the kind, in a place of which
+    /// none of it was told.
+    pub(super) fn more_elsewhere(
+        &self,
+        sentence: &Sentence<'_>,
+        last: &Query,
+        memory: &Memory,
+    ) -> Option<Query> {
+        let another = |key: &String| set!("AnotherWord").contains(&key.as_str());
+        let noun = last.sought().filter(|_| sentence.keys.iter().any(another))?;
+        let (mut restrictions, mut exists) = (Vec::new(), false);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::Exists) => exists = true,
+                Item::Mark(Mark::And | Mark::Be | Mark::Other | Mark::Filler | Mark::A) => {}
+                Item::Noun(phrase) if phrase.noun.head.anything => {}
+                Item::Place { rel, nouns, either: false } => {
+                    let anchors = nouns.into_iter().map(|phrase| phrase.noun).collect();
+                    restrictions.push(Restriction { rel, anchors, negated: false });
+                }
+                _ => return None,
+            }
+        }
+        let named = exists && !restrictions.is_empty() && !noun.head.kinds.is_empty();
+        let head = Head { kinds: noun.head.kinds.clone(), ..Head::default() };
+        let sought = Noun { head, restrictions, plural: true, indefinite: true, ..Noun::default() };
+        let found = self.knowledge(sentence.language, memory).find(&sought, true);
+        let told = |thing: &Thing| memory.last.contains(thing) || memory.listed.contains(thing);
+        let are_new = found.is_ok_and(|found| !found.iter().any(told));
+        let what = vec![sought];
+        (named && are_new).then_some(Query::Exists { what, either: false, denial: Denial::None })
+    }
+
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
     pub(super) fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
         static SMALL: Set = Set::named("AroundAnother");

@@ -5,8 +5,9 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::lexicon::{Lexicon, Meaning};
+use super::lexicon::{Extension, Lexicon, Meaning};
 use super::vocabulary;
+use crate::map::Entity;
 use crate::sets::Set;
 use crate::units::{InOrder as _, name_key};
 use crate::words::{Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges};
@@ -34,6 +35,11 @@ pub(super) fn plain<'t>(text: &'t str, lexicon: &Lexicon) -> Cow<'t, str> {
         }
         if let Some((pair, turned)) = turned(text, &words, at, taken, lexicon) {
             replaced.push((pair, turned));
+            at += 2;
+            continue;
+        }
+        if let Some((pair, named)) = named_by_end(text, &words, at, taken, lexicon) {
+            replaced.push((pair, named));
             at += 2;
             continue;
         }
@@ -111,6 +117,42 @@ fn turned(
     }
     let turned = format!("{} {}", &text[next.clone()], &text[words[at].clone()]);
     is_name(&turned, lexicon).then(|| (words[at].start..next.end, turned))
+}
+
+/// «дверь coe», "the door coe", where a door is the coe_door: its kind is the end of its name, whatever else is called so.
+fn named_by_end(
+    text: &str,
+    words: &[Range<usize>],
+    at: usize,
+    taken: usize,
+    lexicon: &Lexicon,
+) -> Option<(Range<usize>, String)> {
+    let (kind, next) = (&words[at], words.get(at + 1)?);
+    let own = &text[next.clone()];
+    if taken != 1 || &text[kind.end..next.start] != " " || !own.is_ascii() {
+        return None;
+    }
+    let kinds =
+        lexicon.nouns.find(&text[kind.clone()]).into_iter().filter_map(|hit| match hit.id {
+            Meaning::Kind(kind) => Some(lexicon.kind(*kind)),
+            Meaning::Entity(_) => None,
+        });
+    let names = |name: &str| -> Vec<Entity> {
+        let hits = lexicon.nouns.find(name).into_iter();
+        let hits = hits.filter(|hit| hit.spelling != crate::Spelling::Part);
+        hits.filter_map(|hit| match hit.id {
+            Meaning::Entity(entity) => Some(*entity),
+            Meaning::Kind(_) => None,
+        })
+        .collect()
+    };
+    let alone = names(own);
+    kinds.filter(|kind| kind.extension == Extension::Doors).find_map(|doors| {
+        let whole = format!("{own} {}", doors.english);
+        let is_door = |entity: &Entity| matches!(entity, Entity::Door(_));
+        let named = names(&whole).iter().any(is_door) && !alone.iter().any(is_door);
+        named.then_some((kind.start..next.end, whole))
+    })
 }
 
 /// «сколько дверей, кроме входной»: an adjective for a name whose noun the sentence has already.

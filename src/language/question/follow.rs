@@ -170,6 +170,9 @@ impl Asker<'_> {
         if let Some(query) = self.one_more(text, last, memory) {
             return Some(query);
         }
+        if let Some(query) = self.more_elsewhere(&sentence, last, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.placed_too(text, last, memory) {
             return Some(query);
         }

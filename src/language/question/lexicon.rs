@@ -102,7 +102,7 @@ static MASS: Set = Set::named("MassKind");
 #[derive(Debug)]
 pub struct Lexicon {
     pub(super) nouns: FormIndex<Meaning>,
-    kinds: Vec<Kind>,
+    pub(super) kinds: Vec<Kind>,
     /// Kinds that a head word covers beside its own: «стол» – «Письменный стол».
     narrower: HashMap<(bool, String), Vec<KindId>>,
     /// English words that the map itself gives to its types, as keys.
@@ -206,6 +206,7 @@ impl Lexicon {
                 lexicon.add(Extension::Object(object.id), &phrase, &object.name_en, false);
             }
         }
+        lexicon.add_heads();
         lexicon.add_concepts(world);
         lexicon.add_building(world);
         lexicon.add_lifts(world);
@@ -294,7 +295,12 @@ impl Lexicon {
         }
     }
 
-    fn push(&mut self, extension: Extension, phrase: NounPhrase, english: &str) -> KindId {
+    pub(super) fn push(
+        &mut self,
+        extension: Extension,
+        phrase: NounPhrase,
+        english: &str,
+    ) -> KindId {
         let id = KindId(u16::try_from(self.kinds.len()).unwrap_or(u16::MAX));
         let english = match english {
             "" => english::name_of(phrase.name()).unwrap_or_else(|| phrase.name().to_owned()),

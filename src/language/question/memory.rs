@@ -59,7 +59,7 @@ pub struct Memory {
     pub(super) person: Option<Entity>,
     /// The words in which the person has told where it is, where these come to no place.
     pub(super) astray: Option<String>,
-    /// Where the robot was when it was first told something, or was last told to bring something: with the person.
+    /// Where the robot was when it was last told to bring something: with the person.
     pub(super) called_from: Option<Thing>,
     /// Where the robot was when it was last told something.
     pub(super) stands: Option<Thing>,
@@ -187,14 +187,12 @@ impl Memory {
         }
     }
 
-    /// Notes where the robot is as it is told something, and whether it is to bring something thither.
-    pub fn speak_from(&mut self, place: Thing, brings: bool) {
-        if brings || self.called_from.is_none() {
-            self.called_from = Some(place);
-        }
+    /// Notes where the robot is as it is told to bring something thither.
+    pub fn bring_to(&mut self, place: Thing) {
+        self.called_from = Some(place);
     }
 
-    /// Where the person is who says "here", as far as that is known.
+    /// Where the person is who says "here": where he has said to be, else where something was to be brought to him.
     #[must_use]
     pub fn place_of_speaker(&self) -> Option<Thing> {
         self.person.map(Thing::Entity).or(self.called_from)

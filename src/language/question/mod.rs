@@ -34,6 +34,7 @@ mod everyday;
 mod focus;
 mod follow;
 mod grammar;
+mod heads;
 mod heeded;
 mod here;
 mod introduced;
@@ -230,11 +231,14 @@ impl Answer {
     fn joined(answers: Vec<Self>, language: Language) -> Self {
         let said = answers.first().map_or(Said::Unknown, |first| first.said);
         let same = answers.iter().all(|a| a.said == said);
+        // What was just told is not told again: "There are 2 phones: Phone 1 and Phone 2."
+        let mut texts: Vec<&str> = answers.iter().map(|answer| &*answer.text).collect();
+        texts.dedup_by(|next, told| told.to_lowercase().ends_with(&next.to_lowercase()));
         let mut whole = Self {
             query: Query::Several(Vec::new()),
             language,
             said: if same { said } else { Said::Found },
-            text: String::new(),
+            text: texts.join(" "),
             things: Vec::new(),
             symbols: Vec::new(),
             facts: Vec::new(),
@@ -246,7 +250,6 @@ impl Answer {
             stamp: None,
         };
         let mut queries = Vec::new();
-        let texts: Vec<String> = answers.iter().map(|a| a.text.clone()).collect();
         for answer in answers {
             queries.push(answer.query);
             let found = answer.things.into_iter();
@@ -256,7 +259,6 @@ impl Answer {
             whole.topic.extend(answer.topic);
             whole.words = answer.words;
         }
-        whole.text = texts.join(" ");
         whole.query = Query::Several(queries);
         whole
     }
@@ -614,8 +616,7 @@ impl Asker<'_> {
             return knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))));
         }
         if self.asks_of_posture(text, memory) {
-            let words = text.to_owned();
-            return Err(Box::new((Doubt::NotUnderstood { words }, None)));
+            return Err(Box::new((Doubt::not_understood(text), None)));
         }
         let left = self.how_many_left(text, memory);
         if let Some(None) = left {
@@ -663,8 +664,7 @@ impl Asker<'_> {
             && what.iter().all(bare)
             && word_keys(text).iter().any(|key| key == "one")
         {
-            let words = text.to_owned();
-            return Err(Box::new((Doubt::NotUnderstood { words }, None)));
+            return Err(Box::new((Doubt::not_understood(text), None)));
         }
         let none = knowledge.points_at_nothing(&query).or_else(|| knowledge.is_at_itself(&query));
         if let Some(word) = none {
@@ -678,8 +678,7 @@ impl Asker<'_> {
             return Err(Box::new((doubt, Some(query))));
         }
         if knowledge.tells_nothing(&query) {
-            let words = text.to_owned();
-            return Err(Box::new((Doubt::NotUnderstood { words }, None)));
+            return Err(Box::new((Doubt::not_understood(text), None)));
         }
         let answer = knowledge.answer(&query);
         let answer = answer.map(|answer| Answer {
@@ -687,6 +686,7 @@ impl Asker<'_> {
             so: denial::truth(&Sentence::new(text, &self.mind.lexicon), &answer),
             ..answer
         });
+        let answer = answer.map(|answer| self.with_whole(text, memory, answer));
         // What is left is so now.
         if let Ok(answer) = &answer
             && !is_left

@@ -103,6 +103,8 @@ impl Knowledge<'_> {
     /// What one word in the singular may mean of several: "it" after a list, "that one". Where they are told by name one
     /// by one, all of them are.
     pub(super) fn contested(&self, query: &Query) -> Option<Doubt> {
+        /// Of no more it is asked back which is meant.
+        const MOST: usize = 8;
         if let Some(told) = self.memory.astray.as_ref().filter(|_| query.counts_from_here()) {
             return Some(Doubt::Astray { told: told.clone() });
         }
@@ -137,6 +139,11 @@ impl Knowledge<'_> {
                 && noun.best.is_none()
                 && noun.rank.is_none()
                 && !noun.other;
+            // None of 69 is "it": all of them are no answer to what was meant either.
+            if several.is_some_and(|all| all.len() > MOST) && bare && single(noun) {
+                doubt.get_or_insert(Doubt::NoReferent { word: noun.text.clone() });
+                return;
+            }
             if let Some(candidates) = several.filter(|_| bare && single(noun)) {
                 let (reference, candidates) = (noun.text.clone(), candidates.to_vec());
                 doubt.get_or_insert(Doubt::Ambiguous { reference, candidates });

@@ -13,7 +13,9 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
     let cut = |n: usize| {
         let comma = text[words[n - 1].end..words[n].start].contains(',');
         let (before, behind) = (&keys[..n], &keys[n + 1..]);
-        let joint = is_joint(&keys[n]) && (begins(behind) || asks_of_those(before, behind));
+        let of_all = || comma && claims_of_all(before, behind);
+        let joint =
+            is_joint(&keys[n]) && (begins(behind) || asks_of_those(before, behind) || of_all());
         let anew = comma && begins_anew(&keys[n..]);
         // «…, а чашек?»: the same of something else. «…, а не на полке?» only sets off.
         let goes_on = comma && keys[n] == "а" && behind.first().is_some_and(|key| key != "не");
@@ -151,6 +153,12 @@ fn begins_anew(words: &[String]) -> bool {
     }
 }
 
+/// «Сколько дверей, и все открыты?»: a word for all, and what is claimed of them.
+fn claims_of_all(before: &[String], words: &[String]) -> bool {
+    let counted = has_mark(before, |mark| mark == Mark::HowMany);
+    counted && words.len() == 2 && matches!(vocabulary::longest(words), Some((1, Mark::All)))
+}
+
 /// "How many rooms are there and which is the biggest?": where a thing is described, "which is" asks nothing.
 fn asks_of_those(before: &[String], words: &[String]) -> bool {
     let [which, is, rest @ ..] = words else { return false };
@@ -178,7 +186,7 @@ fn begins(words: &[String]) -> bool {
             let next = vocabulary::longest(&words[taken..]);
             let inverted = matches!(words[0].as_str(), "is" | "are");
             next.is_some_and(|(_, m)| match m {
-                Mark::The => inverted,
+                Mark::The | Mark::All => inverted,
                 m => matches!(m, Mark::Pronoun(_) | Mark::Anything),
             })
         }

@@ -311,6 +311,12 @@ impl Knowledge<'_> {
         match (self.kind_of(thing), thing) {
             (Some(kind), _) => self.members(&self.lexicon().kind(kind).extension),
             (None, Thing::Entity(Entity::Door(_))) => self.members(&Extension::Doors),
+            (None, _)
+                if let chargers @ [_, ..] = &self.members(&Extension::Chargers)[..]
+                    && chargers.contains(&thing) =>
+            {
+                chargers.to_vec()
+            }
             (None, _) => vec![thing],
         }
     }
@@ -346,7 +352,9 @@ impl Knowledge<'_> {
         let [later, earlier, ..] = &self.memory.exchanges[..] else { return None };
         let one = |e: &Exchange| e.topic().filter(|_| e.members().is_empty());
         let pair = [one(earlier)?, one(later)?];
-        let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
+        let chargers = self.members(&Extension::Chargers);
+        let is_thing = |t: &Thing| t.replica().is_some() || chargers.contains(t);
+        let singular = |t: &Thing| is_thing(t) && self.gender(*t).1 == Number::Singular;
         (pair[0] != pair[1] && pair.iter().all(singular)).then(|| pair.to_vec())
     }
 

@@ -202,6 +202,11 @@ pub fn words_of(noun: &str) -> &'static [String] {
     lexicon::find(&noun.to_lowercase()).map_or(&[], |entry| &entry.english)
 }
 
+/// All Russian nouns of the word list, with their English.
+pub(crate) fn nouns() -> impl Iterator<Item = (&'static str, Vec<String>)> {
+    lexicon::all().map(|(word, entry)| (word, entry.english))
+}
+
 /// Russian nouns of the word list that this English word stands for: "bed" – «кровать».
 pub(crate) fn russian_of(english_name: &str) -> Vec<&'static str> {
     let lower = english_name.to_lowercase();

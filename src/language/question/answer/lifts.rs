@@ -17,10 +17,31 @@ impl Knowledge<'_> {
         if place.negated || !noun.head.kinds.iter().any(storeys) {
             return None;
         }
-        let [cabin] = self.find(place.anchors.first()?, true).ok()?[..] else { return None };
-        let maps = self.stops_of(cabin)?;
-        let text = self.stops_at(cabin, &maps);
-        Some(Draft::new(Said::Found, text).with(maps).about(&[cabin]))
+        let lifts = place.anchors.first()?;
+        self.stops_of_lifts(lifts, self.find(lifts, true).ok()?)
+    }
+
+    /// «На какие этажи ходят лифты?»: where each stops, as nothing tells where a cabin is; none of what is no lift.
+    pub(super) fn stops_of_lifts(&self, noun: &Noun, mut cabins: Vec<Thing>) -> Option<Draft> {
+        self.one_of_each_lift(noun, &mut cabins);
+        let stops: Option<Vec<Vec<Thing>>> = cabins.iter().map(|t| self.stops_of(*t)).collect();
+        let stops = stops.filter(|stops| !stops.is_empty())?;
+        let mut maps: Vec<Thing> = Vec::new();
+        for map in stops.iter().flatten() {
+            if !maps.contains(map) {
+                maps.push(*map);
+            }
+        }
+        let together = stops.iter().all(|own| *own == stops[0]);
+        let text = match together {
+            true => self.stops_at(&cabins, &maps),
+            false => {
+                let each =
+                    cabins.iter().zip(&stops).map(|(cabin, own)| self.stops_at(&[*cabin], own));
+                each.collect::<Vec<_>>().join("; ")
+            }
+        };
+        Some(Draft::new(Said::Found, text).with(maps).about(&cabins))
     }
 
     /// "Does the lift go to the second floor?", «Останавливается ли лифт на обоих этажах?»: whether it stops there.
@@ -52,7 +73,7 @@ impl Knowledge<'_> {
         let maps = self.stops_of(cabin).unwrap_or_default();
         let yes = storeys.iter().all(|storey| maps.contains(storey)) != (place.negated ^ negated);
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
-        let text = format!("{head}{}", self.stops_at(cabin, &maps));
+        let text = format!("{head}{}", self.stops_at(&[cabin], &maps));
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Some(Draft::new(said, text).with(vec![cabin]).about(&maps)))
     }
@@ -68,11 +89,13 @@ impl Knowledge<'_> {
         Some(maps)
     }
 
-    fn stops_at(&self, cabin: Thing, maps: &[Thing]) -> String {
-        let (name, list) = (self.name(cabin), self.list(maps));
-        match self.is_russian() {
-            true => format!("{name} останавливается здесь: {list}"),
-            false => format!("{name} stops at {list}"),
+    fn stops_at(&self, cabins: &[Thing], maps: &[Thing]) -> String {
+        let (names, list) = (self.list(cabins), self.list(maps));
+        match (self.is_russian(), cabins) {
+            (true, [_]) => format!("{names} останавливается здесь: {list}"),
+            (true, _) => format!("{names} останавливаются здесь: {list}"),
+            (false, [_]) => format!("{names} stops at {list}"),
+            (false, _) => format!("{names} stop at {list}"),
         }
     }
 }

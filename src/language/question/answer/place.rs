@@ -53,11 +53,11 @@ impl Knowledge<'_> {
     /// As [`Knowledge::definite`], but of a few things that are meant alike, all: where each of them is, is soon told.
     fn few(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
         const MOST: usize = 5;
+        // "The mug on the desk", of two desks: the desks are not what is asked of.
+        let own = |t: &Thing| t.replica().is_some() && self.base(&noun.head).contains(t);
         match self.definite(noun) {
             Err(Doubt::Ambiguous { candidates, .. })
-                if candidates.len() <= MOST
-                    && candidates.iter().all(|t| t.replica().is_some())
-                    && noun.means_one() =>
+                if candidates.len() <= MOST && candidates.iter().all(own) && noun.means_one() =>
             {
                 Ok(candidates)
             }
@@ -375,6 +375,9 @@ impl Knowledge<'_> {
         // "Which room is it in?" of a thing and a room that were named asks of the thing.
         if found.iter().any(|thing| thing.area().is_none()) {
             found.retain(|thing| thing.area().is_none());
+        }
+        if let Some(stops) = self.stops_of_lifts(noun, found.clone()) {
+            return Ok(stops);
         }
         let mut rooms: Vec<Thing> = Vec::new();
         let mut parts: Vec<String> = Vec::new();

@@ -90,8 +90,11 @@ impl Frame<'_, '_> {
         // «А в ванной есть хоть одна?»: one of a kind that was spoken of, and not anything at all.
         static ONE: Set = Set::named("OneWord");
         let bare = |noun: &Noun| noun.head.anything && noun.filters.is_empty();
+        // «А в ванной есть ещё?»: of what, is not said.
+        let another = !(self.has(Mark::Anything) || self.has(Mark::What))
+            && self.sentence.keys.iter().any(|key| set!("AnotherWord").contains(&key.as_str()));
         let one = matches!(query, Query::Exists { what, .. } if what.iter().all(bare))
-            && self.sentence.keys.iter().any(|key| ONE.contains(&key.as_str()));
+            && (another || self.sentence.keys.iter().any(|key| ONE.contains(&key.as_str())));
         // "In here", which was not put as the room.
         let here = self.sentence.keys.windows(2).any(|two| two == ["in", "here"]);
         // "Is its door locked?": of the door, and not whether the room is one.
@@ -121,11 +124,22 @@ impl Frame<'_, '_> {
         let goes = self.has(Mark::Can)
             && self.has(Mark::Move)
             && matches!(query, Query::Find(noun) | Query::Count(noun) if !by_way(noun));
+        // "Which door do I go through?": whither is not said.
+        let any_doors = |noun: &Noun| {
+            let head = &noun.head;
+            let any = head.things.is_none() && head.named.is_empty();
+            self.is_doors(noun) && any && noun.restrictions.is_empty()
+        };
+        let through = self.links.iter().any(|(rel, _)| *rel == Rel::Through);
+        let nowhither = (through || self.has(Mark::Move))
+            && !self.has(Mark::Can)
+            && matches!(query, Query::Find(noun) if any_doors(noun));
         // "What if Door 1 is locked?" supposes.
         let supposes = self.sentence.keys.windows(2).any(|two| two == ["what", "if"]);
         leads
             || told.parted
             || told.itself
+            || nowhither
             || self.is_torn(query)
             || self.is_misplaced(query)
             || self.only_denies(query)

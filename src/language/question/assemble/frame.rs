@@ -296,6 +296,9 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Value(value) if let Some(words) = frame.called_after(*value, items, at) => {
                     return Err(Doubt::not_understood(&words));
                 }
+                Item::Value(value) if frame.is_filled_with(*value, items, at) => {
+                    return Err(Doubt::not_understood(sentence.text));
+                }
                 Item::Value(value) => {
                     frame.values.push((*value, at, std::mem::take(&mut not)));
                 }
@@ -345,6 +348,7 @@ impl<'s, 't> Frame<'s, 't> {
             let noun = things(meant, "it");
             frame.nouns.push(Subject { noun, at: items.len(), negated: false, nominative: true });
         }
+        frame.all_of_those_told(items.len(), referent)?;
         // «Вся ли мебель деревянная?»: the small word stands between.
         let all = frame.has(Mark::All) || frame.has(Mark::Each);
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
@@ -384,6 +388,14 @@ impl<'s, 't> Frame<'s, 't> {
         let english = self.sentence.language == crate::words::Language::English;
         let words = phrase.words.start..phrase.words.end + 1;
         (english && is_material && named && !says).then(|| self.sentence.said(&words).to_owned())
+    }
+
+    /// "A bottle of red": of what it is full, and not what colour it has.
+    fn is_filled_with(&self, value: ValueId, items: &[Item], at: usize) -> bool {
+        let is_colour = self.lexicon.values.entry(value).property == Property::Colour;
+        let of = at > 0 && items[at - 1] == Item::Link(Rel::Of);
+        let english = self.sentence.language == crate::words::Language::English;
+        is_colour && of && english && !matches!(items.get(at + 1), Some(Item::Property(_)))
     }
 
     /// «Стульев на кухне больше трёх?»: gives a number that stands last to what is counted.

@@ -6,6 +6,7 @@
 mod about;
 mod account;
 mod activity;
+mod all_told;
 mod alternatives;
 mod attach;
 mod claim;

@@ -73,6 +73,8 @@ struct Found {
     is_storey: bool,
     /// A kind whose name may stand before a thing's own: «помещение Туалет», «этаж L2».
     is_general: bool,
+    /// Doors: what is called so behind the word is one, and neither a point nor a thing.
+    is_doors: bool,
     /// Any thing at all, and nothing else.
     is_thing: bool,
 }
@@ -561,7 +563,8 @@ impl<'t> Sentence<'t> {
             && next.named.iter().any(|entity| match entity {
                 Entity::Map(_) => found.is_storey,
                 Entity::Area(_) => found.is_area && !found.is_storey,
-                _ => !found.is_area,
+                Entity::Door(_) => !found.is_area,
+                _ => !found.is_area && !found.is_doors,
             });
         let (end, start) = (input.0[0].to as usize, *from as usize);
         let gap = &self.text[self.words[end - 1].end..self.words[start].start];

@@ -500,6 +500,7 @@ impl<'t> Sentence<'t> {
                         let extension = lexicon.kind(kind).extension;
                         found.is_storey |= extension == Extension::Storeys;
                         found.is_thing |= extension == Extension::Things;
+                        found.is_doors |= extension == Extension::Doors;
                         found.is_general |= matches!(
                             extension,
                             Extension::Storeys

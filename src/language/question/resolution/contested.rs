@@ -5,9 +5,10 @@ use std::ops::Range;
 use super::super::grammar::{Item, Sentence};
 use super::super::mark::Pronoun;
 use super::super::memory::Exchange;
-use super::super::query::Query;
+use super::super::query::{Query, Rel};
 use super::super::{Asker, Memory, Thing};
 use crate::command;
+use crate::sets::set;
 
 impl Asker<'_> {
     /// «Что на кровати? – Книга, ракетка и подушка. – Принеси её», "What is next to the mug? – A plate. – Bring it": which of
@@ -43,12 +44,49 @@ impl Asker<'_> {
         (candidates.len() > 1).then_some((at, reference, candidates))
     }
 
-    /// «Где книги? Что рядом с ними? Поезжай к ним»: to the books, or to what stands beside them.
-    pub(super) fn either_several(
+    /// «Где столы? Отнеси газету к ним», "Put it on them": on one of several that were told nothing says which.
+    fn one_of_places(
         &self,
+        text: &str,
         sentence: &Sentence<'_>,
         memory: &Memory,
     ) -> Option<(Range<usize>, String, Vec<Thing>)> {
+        let [(_, sort)] = command::clauses(text)[..] else { return None };
+        let (mut named, mut places) = (0, Vec::new());
+        for item in sentence.items() {
+            match item {
+                Item::Noun(phrase) if phrase.person.is_none() && phrase.noun.plural => return None,
+                Item::Noun(phrase) => named += usize::from(phrase.person.is_none()),
+                Item::Place { rel, nouns, .. } => places.push((rel, nouns)),
+                _ => {}
+            }
+        }
+        let [(rel, nouns)] = &places[..] else { return None };
+        let [they] = &nouns[..] else { return None };
+        let carried = matches!(sort, command::Sort::Put | command::Sort::Carry) && named == 1;
+        let said = crate::units::name_key(&they.noun.text);
+        let dative = *rel == Rel::To && set!("ThemInDative").contains(&said.as_str());
+        if !carried || they.pronoun != Some(Pronoun::They) && !dative {
+            return None;
+        }
+        let knowledge = self.knowledge(sentence.language, memory);
+        let mut candidates = knowledge.referent(Pronoun::They, Some(*rel));
+        candidates.retain(|thing| knowledge.may_be_anchor(*rel, *thing));
+        let words = &they.words;
+        let at = sentence.words.get(words.start)?.start..sentence.words.get(words.end - 1)?.end;
+        (candidates.len() > 1).then(|| (at, they.noun.text.clone(), candidates))
+    }
+
+    /// «Где книги? Что рядом с ними? Поезжай к ним»: to the books, or to what stands beside them.
+    pub(super) fn either_several(
+        &self,
+        text: &str,
+        sentence: &Sentence<'_>,
+        memory: &Memory,
+    ) -> Option<(Range<usize>, String, Vec<Thing>)> {
+        if let Some(place) = self.one_of_places(text, sentence, memory) {
+            return Some(place);
+        }
         let they = sentence.items().into_iter().find_map(|item| {
             let nouns = match item {
                 Item::Noun(phrase) => vec![phrase],

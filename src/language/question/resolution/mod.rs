@@ -180,7 +180,7 @@ impl Asker<'_> {
                     false => self.one_of_listed(&text, &sentence, memory),
                 };
                 if let Some((at, reference, candidates)) =
-                    listed.or_else(|| self.either_several(&sentence, memory))
+                    listed.or_else(|| self.either_several(&text, &sentence, memory))
                 {
                     let told = candidates.clone();
                     memory.waiting = Some(Waiting { text, at, candidates: told, language });

@@ -151,8 +151,8 @@ impl Resolver<'_, '_> {
             let anchors = vec![Noun::of(vec![opened])];
             within.push(Restriction { rel: Rel::In, anchors, negated: false });
         }
-        if let Some(places) = more.there {
-            let there = Noun { plural: places.len() > 1, ..Noun::of(places) };
+        if let Some(places) = &more.there {
+            let there = Noun { plural: places.len() > 1, ..Noun::of(places.clone()) };
             within.push(Restriction { rel: Rel::There, anchors: vec![there], negated: false });
         }
         let told = noun_is.map(|way_out| Noun { head: way_out.head, ..noun.clone() });
@@ -176,6 +176,9 @@ impl Resolver<'_, '_> {
             };
         }
         let mut found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
+        if let (Some(places), true, Sort::Switch) = (&more.there, found.is_empty(), sort) {
+            found = self.in_rooms_there(noun, places).map_err(|doubt| (doubt, at.clone()))?;
+        }
         // "The one from the dresser", where a list was told before the last one: of that.
         if found.is_empty() && phrase.noun.head.anything && noun.head.things.is_some() {
             for exchange in &self.knowledge.memory.exchanges {

@@ -1,5 +1,6 @@
 //! The places of a command: which of them say whither, and which tell where another one is.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::choice::{is_described, with};
@@ -404,6 +405,25 @@ impl Resolver<'_, '_> {
             }
             false => Ok(Some(places)),
         }
+    }
+
+    /// «Положи газету на диван и выключи там свет»: in the room, where nothing of the kind is on the sofa.
+    pub(super) fn in_rooms_there(
+        &self,
+        noun: &Noun,
+        places: &[Thing],
+    ) -> Result<Vec<Thing>, Doubt> {
+        let rooms = places.iter().filter(|place| place.replica().is_some());
+        let rooms = rooms.filter_map(|place| self.knowledge.area_of(*place));
+        let rooms: BTreeSet<AreaId> = rooms.collect();
+        let rooms: Vec<Thing> =
+            rooms.into_iter().map(|id| Thing::Entity(Entity::Area(id))).collect();
+        if rooms.is_empty() {
+            return Ok(Vec::new());
+        }
+        let place = Noun { plural: rooms.len() > 1, ..Noun::of(rooms) };
+        let within = Restriction { rel: Rel::In, anchors: vec![place], negated: false };
+        self.candidates(noun, &[within])
     }
 
     /// «Положи книгу на кровать. Где газета? Отнеси её туда же»: "there" is whither the last order went, never where what is
