@@ -532,3 +532,43 @@ fn another_is_of_the_kind_that_was_asked_for() {
     }
     assert!(told > 10 && refused > 10, "{told} told, {refused} refused");
 }
+
+/// "What is on the table in the kitchen? And the one in the hall?": what is on the table there, and on no other.
+#[test]
+fn the_one_elsewhere_bears_its_own() {
+    let mut heard = 0;
+    for engine in maps() {
+        let (world, relations) = (engine.world().unwrap(), engine.relations().unwrap());
+        for (kind, things) in by_type(world) {
+            let bears = |id: &ReplicaId| {
+                world.replicas.keys().any(|other| relations.support_of(*other) == Some(*id))
+            };
+            let mut rooms = BTreeMap::new();
+            for id in things.into_iter().filter(bears) {
+                rooms.entry(world.replicas[&id].area).or_insert_with(Vec::new).push(id);
+            }
+            let single: Vec<_> = rooms.iter().filter(|(_, all)| all.len() == 1).collect();
+            let noun = names(world, kind).1;
+            for pair in single.windows(2) {
+                let [here, there] = [0, 1].map(|n| world.areas[pair[n].0].name_en.clone());
+                let whole = |room: &str| format!("What is on the {noun} in the {room}?");
+                let plain = ask(&engine, &whole(&there), &mut Memory::default());
+                for and in
+                    ["And the one in the", "And on the one in the", "What about the one in the"]
+                {
+                    let mut memory = Memory::default();
+                    if ask(&engine, &whole(&here), &mut memory).is_none() {
+                        continue;
+                    }
+                    let said = ask(&engine, &format!("{and} {there}?"), &mut memory);
+                    if let Some(said) = said {
+                        let plain = plain.as_ref().map(|plain| &plain.things);
+                        assert_eq!(Some(&said.things), plain, "{} – {and} {there}", whole(&here));
+                        heard += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(heard > 5, "{heard}");
+}

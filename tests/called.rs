@@ -4,8 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use orthoframe::engine::Memory;
-use orthoframe_language::question::Said;
-use orthoframe_map::World;
+use orthoframe_language::question::{Said, Thing};
+use orthoframe_map::{Entity, World};
+use orthoframe_units::AreaId;
 
 use crate::files::shared;
 use crate::talk::engine;
@@ -174,4 +175,37 @@ fn the_next_of_a_row_is_not_denied_for_a_namesake() {
         denied += 1;
     }
     assert!(denied > 2, "{denied}");
+}
+
+/// Where one room is called "Bedroom" and another "Bedroom 2", the biggest bedroom is the biggest of both, wherever it stands in
+/// a question or an order.
+#[test]
+fn the_biggest_of_a_kind_is_not_the_one_that_bears_its_name() {
+    for map in [
+        "../shared/data/virtualhome/TestScene3_graph.json",
+        "../shared/data/procthor/house_7.json",
+        "../shared/data/procthor/house_9.json",
+    ] {
+        let Some(engine) = engine(map) else { return };
+        let world = engine.world().unwrap();
+        let mut kinds: BTreeMap<_, Vec<AreaId>> = BTreeMap::new();
+        for area in world.areas.values() {
+            kinds.entry(area.area_type).or_default().push(area.id);
+        }
+        for (kind, rooms) in kinds {
+            let Some(kind) = world.types.area.get(kind).filter(|_| rooms.len() > 1) else {
+                continue;
+            };
+            let noun = kind.name_en.to_lowercase();
+            let ask = |line: &str| engine.ask(line, &mut Memory::default()).unwrap().ok();
+            for word in ["biggest", "smallest"] {
+                let Some(plain) = ask(&format!("What is the {word} {noun}?")) else { continue };
+                let [Thing::Entity(Entity::Area(room))] = plain.things[..] else { continue };
+                assert!(rooms.contains(&room), "{noun}: {}", plain.text);
+                let order = format!("Go to the {word} {noun}");
+                let there = format!("{:?}", engine.understand(&order).unwrap());
+                assert!(there.contains(&format!("{room:?}")), "{order}: {there}");
+            }
+        }
+    }
 }

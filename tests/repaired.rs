@@ -133,7 +133,7 @@ fn what_may_stand_for_several_stands_for_none() {
 fn an_order_beside_what_is_not_understood_waits_for_a_yes() {
     let pairs = [
         ("Go to Room-Y", "I'm starving"),
-        ("Bring the umbrella", "my foot is asleep"),
+        ("Bring the umbrella", "I am exhausted"),
         ("Поезжай в Комнату-Y", "я забыла"),
         ("Принеси зонт", "кино начинается"),
     ];

@@ -6,8 +6,7 @@ use crate::language::command::{Misheard, is_command, is_order_by, without_marks}
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Corrected, Doubt, Fact, Memory, Mind, Misread, News, Noun, Past, Query,
-    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, cores, hinged,
-    unaddressed,
+    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -93,7 +92,7 @@ impl State {
     pub(super) fn question_within(&self, text: &str) -> Result<Option<(String, Query)>, Error> {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
-        for (core, _) in cores(text) {
+        for (core, _) in asker.cores(text) {
             let before = text.find(core).map_or(text, |at| &text[..at]);
             let begins = !before.contains('?') && asker.begins_as_question(core);
             let asks = core.ends_with('?') || begins;
@@ -110,6 +109,12 @@ impl State {
             }
         }
         Ok(None)
+    }
+
+    /// What a line says beside parts of it, as [`Asker::cores`].
+    pub(super) fn cores<'t>(&self, text: &'t str) -> Result<Vec<(&'t str, String)>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.cores(text))
     }
 
     /// Brings what a dialogue remembers to the map as it now is.

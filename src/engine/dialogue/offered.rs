@@ -1,7 +1,7 @@
 //! Orders that are told and wait for a yes, since it is not sure that they are meant; questions that may have been.
 
 use crate::language::command::{Command, Misheard, is_order};
-use crate::language::question::{Aside, Conditional, Doubt, Unanswered, cores, rank_alone};
+use crate::language::question::{Aside, Conditional, Doubt, Unanswered, rank_alone};
 use crate::language::{Language, word_ranges};
 use crate::units::{capitalized, told};
 
@@ -107,7 +107,8 @@ impl Hearing<'_, '_> {
                 && (is_order(core) || self.engine.is_command(core).unwrap_or(false))
                 && heard.is_ok_and(|commands| !commands.contains(&Command::Stop))
         };
-        if let Some((core, rest)) = cores(line).find(|(core, _)| does(core)) {
+        let cores = self.engine.cores(line)?;
+        if let Some((core, rest)) = cores.into_iter().find(|(core, _)| does(core)) {
             let told = told!(language, "i-do-not-understand-the-rest", rest);
             self.offer(capitalized(core), &told, language)?;
             return Ok(true);

@@ -360,6 +360,21 @@ pub(super) fn near_another(last: &Query, noun: &Noun) -> Option<Query> {
 pub(super) fn another_placed(last: &Query, noun: &Noun) -> Option<Query> {
     let mut query = last.clone();
     let mut placed = false;
+    // "What is on the table in the kitchen? And the one in the hall?": on the table there, and no more in the kitchen.
+    if let Query::Find(sought) = &mut query
+        && sought.head.anything
+        && let Some(Restriction { anchors, negated: false, .. }) = sought.restrictions.first_mut()
+        && let [anchor] = &mut anchors[..]
+        && anchor.head.things.is_none()
+        && !anchor.head.kinds.is_empty()
+        && !noun.restrictions.is_empty()
+    {
+        anchor.head.named.clear();
+        anchor.restrictions.clone_from(&noun.restrictions);
+        anchor.filters.clone_from(&noun.filters);
+        sought.restrictions.truncate(1);
+        return Some(query);
+    }
     query.first_noun(|old| {
         if !old.head.anything && old.head.things.is_none() {
             if !noun.restrictions.is_empty() {

@@ -54,6 +54,26 @@ impl Asker<'_> {
             || self.is_adverbial(clause)
     }
 
+    /// The runs of parts of a line beside which nothing stands that bounds them, the longest first, each with the rest.
+    #[must_use]
+    pub fn cores<'t>(&self, text: &'t str) -> Vec<(&'t str, String)> {
+        const MOST: usize = 8;
+        let parts = parts(text);
+        if parts.len() > MOST {
+            return Vec::new();
+        }
+        let bounds: Vec<bool> =
+            parts.iter().map(|(from, to)| self.bounds(&text[*from..*to])).collect();
+        let count = parts.len();
+        let runs = (1..count).rev().flat_map(|n| (0..=count - n).map(move |from| from..from + n));
+        let is_free = |run: &Range<usize>| (0..count).all(|n| run.contains(&n) || !bounds[n]);
+        let core = |run: Range<usize>| {
+            let run = parts[run.start].0..parts[run.end - 1].1;
+            (&text[run.clone()], without(text, &run))
+        };
+        runs.filter(is_free).map(core).collect()
+    }
+
     /// «После ремонта», "last week", «летом»: no clause of its own, but a time or a place of what is asked.
     fn is_adverbial(&self, clause: &str) -> bool {
         let keys = word_keys(clause);
@@ -320,19 +340,6 @@ fn without(text: &str, clause: &Range<usize>) -> String {
     let asks = text[clause.clone()].ends_with('?') && behind.is_empty();
     let joined = if before.is_empty() || behind.is_empty() { "" } else { " " };
     format!("{before}{joined}{behind}{}", if asks { "?" } else { "" })
-}
-
-/// What a line says beside one run of its parts, the longest run first: the run, and the rest.
-pub fn cores(text: &str) -> impl Iterator<Item = (&str, String)> {
-    const MOST: usize = 8;
-    let parts = if text.len() > 1_000 { Vec::new() } else { parts(text) };
-    let count = if parts.len() > MOST { 0 } else { parts.len() };
-    let runs =
-        (1..count).rev().flat_map(move |n| (0..=count - n).map(move |from| (from, from + n - 1)));
-    runs.map(move |(from, to)| {
-        let run = parts[from].0..parts[to].1;
-        (&text[run.clone()], without(text, &run))
-    })
 }
 
 /// The same by their text.

@@ -86,7 +86,6 @@ mod windows;
 
 pub use address::{unaddressed, unbegged};
 pub use asides::{Aside, aside, asks_whether, begs, behind_no};
-pub use clauses::cores;
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use departed::{Departed, Stamp};
 pub use doubt::{Doubt, Unanswered};
@@ -233,7 +232,9 @@ impl Answer {
         let same = answers.iter().all(|a| a.said == said);
         // What was just told is not told again: "There are 2 phones: Phone 1 and Phone 2."
         let mut texts: Vec<&str> = answers.iter().map(|answer| &*answer.text).collect();
-        texts.dedup_by(|next, told| told.to_lowercase().ends_with(&next.to_lowercase()));
+        texts.dedup_by(|next, told| {
+            told.len() > next.len() && told.to_lowercase().ends_with(&next.to_lowercase())
+        });
         let mut whole = Self {
             query: Query::Several(Vec::new()),
             language,

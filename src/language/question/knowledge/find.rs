@@ -52,9 +52,10 @@ impl Knowledge<'_> {
     /// # Errors
     /// An anchor that may be several things, or none.
     pub(in crate::question) fn find(&self, noun: &Noun, loose: bool) -> Result<Vec<Thing>, Doubt> {
-        // "A bedroom" is any, «спальня с компьютером» and «вторая спальня» are those that they are said to be.
+        // "A bedroom" is any, «спальня с компьютером», «вторая спальня» and "the biggest bedroom" are those that they are said
+        // to be.
         let Some(of_kind) = noun.of_kind() else { return self.fitting(noun, loose) };
-        if noun.indefinite || noun.rank.is_some() && noun.best.is_none() {
+        if noun.indefinite || noun.rank.is_some() || noun.best.is_some() {
             return self.fitting(&of_kind, loose);
         }
         match self.fitting(noun, loose) {
