@@ -99,7 +99,9 @@ fn uncapitalized(text: &str) -> String {
     chars.next().map(|first| first.to_lowercase().chain(chars).collect()).unwrap_or_default()
 }
 
-const RUSSIAN: [&str; 14] = [
+const RUSSIAN: [&str; 16] = [
+    "Ой",
+    "Извини",
     "Короче",
     "Значит",
     "Как его",
@@ -115,7 +117,9 @@ const RUSSIAN: [&str; 14] = [
     "Так вот",
     "Кстати",
 ];
-const ENGLISH: [&str; 13] = [
+const ENGLISH: [&str; 15] = [
+    "Actually",
+    "Sorry",
     "Like",
     "You know",
     "So",

@@ -23,9 +23,9 @@ pub(crate) fn correction(text: &str) -> Option<Correction<'_>> {
     (!asks).then(|| last(text, verbs::has_verb)).flatten()
 }
 
-/// The last correction within a question: "Where is the cup, no, the mug?"
+/// The last correction within a question, which can be nothing else: "Where is the cup, no, the mug?"
 pub(crate) fn correction_of_question(text: &str) -> Option<Correction<'_>> {
-    last(text, |before| !before.trim().is_empty())
+    last(text, |before| !before.trim().is_empty()).filter(|found| found.is_sure)
 }
 
 /// The last correction of a text behind a part like this.

@@ -137,17 +137,38 @@ fn puts_right(line: &str, from: usize, end: usize) -> bool {
     let Some(Correction { before, behind, .. }) = correction_of_question(line) else {
         return false;
     };
-    let last = word_keys(before).pop();
-    let asks = |mark: Mark| mark.asks() || matches!(mark, Mark::Link(_));
-    let is_whole =
-        last.is_some_and(|last| !vocabulary::longest(&[last]).is_some_and(|(_, m)| asks(m)));
-    is_whole
+    names_last(before)
         && before.len() <= from
         && end <= line.len() - behind.len()
         && courtesy::of(before).is_none()
         && word_keys(behind).first().is_some_and(|first| !is_first_person(first))
         && !begins_clause(before, behind)
         && !is_order(behind)
+}
+
+/// Whether words end with what they name, and not where something is still to be named: «зонт и», "where is the".
+pub(super) fn names_last(words: &str) -> bool {
+    let small = |mark: Mark| {
+        mark.asks()
+            || matches!(
+                mark,
+                Mark::Link(_)
+                    | Mark::And
+                    | Mark::Or
+                    | Mark::But
+                    | Mark::Not
+                    | Mark::The
+                    | Mark::A
+                    | Mark::Be
+                    | Mark::Have
+                    | Mark::Exists
+                    | Mark::Than
+                    | Mark::Except
+                    | Mark::Without
+            )
+    };
+    let last = word_keys(words).pop();
+    last.is_some_and(|last| !vocabulary::longest(&[last]).is_some_and(|(_, mark)| small(mark)))
 }
 
 /// Whether what stands behind words that say nothing is a clause of its own, and not the rest of the one before them.

@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use super::address::names_last;
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::Mark;
@@ -32,32 +33,56 @@ impl Asker<'_> {
         language: Language,
         memory: &mut Memory,
     ) -> Option<Result<Answer, Unanswered>> {
-        Some(match self.repaired(text)? {
-            Ok(meant) => self.heard(&meant, memory).map(|a| a.understood_as(&meant, language)),
-            Err(doubt) => {
-                memory.miss(&doubt, false);
-                Err(self.knowledge(language, memory).unanswered(doubt))
+        let found = command::correction_of_question(text)?;
+        match self.repaired(text, &found) {
+            Some(Ok(meant)) => {
+                Some(self.heard(&meant, memory).map(|a| a.understood_as(&meant, language)))
             }
-        })
+            Some(Err(doubt)) => {
+                memory.miss(&doubt, false);
+                Some(Err(self.knowledge(language, memory).unanswered(doubt)))
+            }
+            // «Сколько стульев, извини, на кухне?» puts nothing right.
+            None => {
+                let says_nothing = vocabulary::parted(&term(text, &found)).is_some();
+                let rest = format!("{} {}", found.before, found.behind);
+                says_nothing.then(|| self.heard(&rest, memory))
+            }
+        }
     }
 
     /// A question as it is meant, where it corrects itself; none where it does not.
     ///
     /// # Errors
     /// [`Doubt::Unheeded`]: what is put instead may stand for several, or for nothing that was said.
-    fn repaired(&self, text: &str) -> Option<Result<String, Doubt>> {
-        let Correction { before, behind, is_sure } = command::correction_of_question(text)?;
+    fn repaired(&self, text: &str, found: &Correction<'_>) -> Option<Result<String, Doubt>> {
+        let Correction { before, behind, .. } = *found;
+        if !names_last(before) {
+            return None;
+        }
         let behind = self.without_withdrawn(without_i_mean(behind));
-        let before = match self.repaired(before) {
+        let earlier = command::correction_of_question(before);
+        let before = match earlier.and_then(|found| self.repaired(before, &found)) {
             Some(Ok(meant)) => meant,
             _ => before.to_owned(),
         };
         let (keys, memory) = (word_keys(behind), Memory::default());
+        // "Is the bedroom, actually, the biggest room?": a word that may say nothing puts right what is a question already.
+        let may_be_idle = vocabulary::parted(&term(text, found)).is_some();
+        if may_be_idle && self.read(&before, &memory).is_err() {
+            return None;
+        }
         if opening::begins_question(&keys) || several::asks_outright(behind) {
+            // "How many doors, sorry, are there in the hall?"
+            let asks = |mark: Mark| mark.asks() && mark != Mark::Exists;
+            let anew = vocabulary::longest(&keys).is_some_and(|(_, mark)| asks(mark));
+            if may_be_idle && !anew {
+                return None;
+            }
             // "What is on the bed, no, what is on the sofa?", but "How many eggs are on the table, no wait, how many cups?"
             let placed = |text: &str| self.named_in(text, &memory).iter().any(|n| n.rel.is_some());
             let is_whole = placed(behind) || !placed(&before);
-            return (is_sure && keys.len() > 2).then(|| match is_whole {
+            return (keys.len() > 2).then(|| match is_whole {
                 true => Ok(behind.to_owned()),
                 false => Err(Doubt::unheeded(behind)),
             });
@@ -71,20 +96,22 @@ impl Asker<'_> {
             return None;
         }
         let told = self.named_in(&before, &memory);
-        if told.is_empty() {
+        // "Is the kitchen the biggest, sorry, room?": what is put right stands at the end, or with it.
+        if told.last()?.at.end < before.trim_end().len() {
             return None;
         }
-        let unheeded = || is_sure.then(|| Err(Doubt::unheeded(behind)));
         let stands_for = |one: &&Named| match first.rel {
             Some(rel) => one.rel == Some(rel),
             None => one.is_area == first.is_area && may_be_in_place_of(&one.phrase, &first.phrase),
         };
         let mut taken_back: Vec<&Named> = told.iter().filter(stands_for).collect();
-        // "In the kitchen, no, on the table": another relation than any that was said.
-        if taken_back.is_empty() && first.rel.is_some() {
-            taken_back = told.iter().filter(|one| one.rel.is_some()).collect();
+        // "In the kitchen, no, on the table": another relation than any that was said; but whither is not whence.
+        let leads = |rel: Rel| matches!(rel, Rel::To | Rel::From | Rel::Through);
+        if taken_back.is_empty() && first.rel.is_some_and(|rel| !leads(rel)) {
+            let lies = |one: &&Named| one.rel.is_some_and(|rel| !leads(rel));
+            taken_back = told.iter().filter(lies).collect();
         }
-        let [one] = taken_back[..] else { return unheeded() };
+        let [one] = taken_back[..] else { return Some(Err(Doubt::unheeded(behind))) };
         let at = if first.rel.is_some() { &one.at } else { &one.noun };
         let (head, tail) = (&before[..at.start], &before[at.end..]);
         let asks = if text.trim_end().ends_with('?') { "?" } else { "" };
@@ -137,6 +164,11 @@ impl Asker<'_> {
             _ => behind,
         }
     }
+}
+
+/// The words that correct: "no wait".
+fn term(text: &str, found: &Correction<'_>) -> Vec<String> {
+    word_keys(&text[found.before.len()..text.len() - found.behind.len()])
 }
 
 fn is_area(knowledge: &Knowledge<'_>, phrase: &Phrase) -> bool {
