@@ -7,9 +7,8 @@ use std::ops::Range;
 
 use super::address::names_last;
 use super::grammar::{Item, Phrase, Sentence};
-use super::knowledge::Knowledge;
 use super::mark::Mark;
-use super::{Answer, Asker, Doubt, Memory, Rel, Thing, Unanswered, opening, several, vocabulary};
+use super::{Answer, Asker, Doubt, Memory, Rel, Unanswered, opening, several, vocabulary};
 use crate::command::{self, Correction};
 use crate::sets::set;
 use crate::words::{Case, Language, word_keys, word_ranges};
@@ -21,7 +20,7 @@ struct Named {
     at: Range<usize>,
     /// The same without the preposition.
     noun: Range<usize>,
-    is_area: bool,
+    is_room: bool,
     phrase: Phrase,
 }
 
@@ -66,10 +65,10 @@ impl Asker<'_> {
             Some(Ok(meant)) => meant,
             _ => before.to_owned(),
         };
-        let (keys, memory) = (word_keys(behind), Memory::default());
+        let keys = word_keys(behind);
         // "Is the bedroom, actually, the biggest room?": a word that may say nothing puts right what is a question already.
         let may_be_idle = vocabulary::parted(&term(text, found)).is_some();
-        if may_be_idle && self.read(&before, &memory).is_err() {
+        if may_be_idle && self.read(&before, &Memory::default()).is_err() {
             return None;
         }
         if opening::begins_question(&keys) || several::asks_outright(behind) {
@@ -80,14 +79,14 @@ impl Asker<'_> {
                 return None;
             }
             // "What is on the bed, no, what is on the sofa?", but "How many eggs are on the table, no wait, how many cups?"
-            let placed = |text: &str| self.named_in(text, &memory).iter().any(|n| n.rel.is_some());
+            let placed = |text: &str| self.named_in(text).iter().any(|n| n.rel.is_some());
             let is_whole = placed(behind) || !placed(&before);
             return (keys.len() > 2).then(|| match is_whole {
                 true => Ok(behind.to_owned()),
                 false => Err(Doubt::unheeded(behind)),
             });
         }
-        let meant = self.named_in(behind, &memory);
+        let meant = self.named_in(behind);
         let [first, ..] = &meant[..] else { return None };
         // "…, sorry, I am looking for the cup": a clause of its own corrects nothing.
         let led = |word: &str| set!("TheOrA").contains(&word);
@@ -95,14 +94,14 @@ impl Asker<'_> {
         if !begins {
             return None;
         }
-        let told = self.named_in(&before, &memory);
+        let told = self.named_in(&before);
         // "Is the kitchen the biggest, sorry, room?": what is put right stands at the end, or with it.
         if told.last()?.at.end < before.trim_end().len() {
             return None;
         }
         let stands_for = |one: &&Named| match first.rel {
             Some(rel) => one.rel == Some(rel),
-            None => one.is_area == first.is_area && may_be_in_place_of(&one.phrase, &first.phrase),
+            None => one.is_room == first.is_room && may_be_in_place_of(&one.phrase, &first.phrase),
         };
         let mut taken_back: Vec<&Named> = told.iter().filter(stands_for).collect();
         // "In the kitchen, no, on the table": another relation than any that was said; but whither is not whence.
@@ -119,9 +118,8 @@ impl Asker<'_> {
         Some(Ok(format!("{head}{behind}{tail}{asks}")))
     }
 
-    fn named_in(&self, text: &str, memory: &Memory) -> Vec<Named> {
+    fn named_in(&self, text: &str) -> Vec<Named> {
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let knowledge = self.knowledge(sentence.language, memory);
         let named = |rel: Option<Rel>, phrase: Phrase| {
             let words = &phrase.words;
             let article =
@@ -138,7 +136,7 @@ impl Asker<'_> {
                 rel,
                 at: bytes(begin - link)..end,
                 noun: bytes(begin)..end,
-                is_area: is_area(&knowledge, &phrase),
+                is_room: self.is_room(&phrase.noun),
                 phrase,
             }
         };
@@ -169,11 +167,6 @@ impl Asker<'_> {
 /// The words that correct: "no wait".
 fn term(text: &str, found: &Correction<'_>) -> Vec<String> {
     word_keys(&text[found.before.len()..text.len() - found.behind.len()])
-}
-
-fn is_area(knowledge: &Knowledge<'_>, phrase: &Phrase) -> bool {
-    let base = knowledge.base(&phrase.noun.head);
-    !base.is_empty() && base.iter().all(|thing: &Thing| thing.area().is_some())
 }
 
 /// Whether some form of a noun is one that another may have: «стулья», «столы», but not «стула».

@@ -282,6 +282,7 @@ impl Asker<'_> {
             || words.last_chunk::<2>().is_some_and(|last| whether(last))
     }
 
+    /// Whether a text asks how to get somewhere.
     pub(super) fn asks_the_way(&self, text: &str) -> bool {
         let plain = self.plain(text);
         Sentence::new(&plain, &self.mind.lexicon).items().contains(&Item::Mark(Mark::HowGet))
