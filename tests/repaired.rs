@@ -155,3 +155,63 @@ fn an_order_beside_what_is_not_understood_waits_for_a_yes() {
         }
     }
 }
+
+/// A question behind what is not understood is answered or waits for a yes, and means then what it does alone.
+#[test]
+fn a_question_beside_what_is_not_understood_waits_for_a_yes() {
+    let Some(mut engine) = engine(MAPS[0]) else { return };
+    let before_en = [
+        "My cousin vexingly mislaid her flugel and is coming so I gotta know",
+        "Sorry to bug you but the snarp wants it,",
+        "Rent's due and the agent's here.",
+    ];
+    let before_ru = [
+        "Хозяйка звонила, ей нужно знать",
+        "Начальник велел хурмить, прикинь.",
+        "Сестра приедет с хорьком, так что надо понять:",
+    ];
+    let mut lines = Vec::new();
+    for id in bearers(&engine) {
+        let world = engine.world().unwrap();
+        let (english, russian) = (&world.replicas[&id].name_en, form(world, id, Case::Nominative));
+        lines.extend(before_en.map(|told| (told, format!("where is {english}?"), "yes")));
+        lines.extend(before_ru.map(|told| (told, format!("где {russian}?"), "да")));
+    }
+    let mut asked = 0;
+    for (told, question, yes) in lines {
+        let Some(plain) = answer(&engine, &question) else { continue };
+        let mut dialogue = Dialogue::default();
+        let mut hear =
+            |said: &str| dialogue.hear(&mut engine, said, &mut |_, _| {}).expect("a map").text();
+        let line = format!("{told} {question}");
+        let said = hear(&line);
+        asked += 1;
+        if plainly(&said) != plain {
+            let (_, offered) = question.trim_end_matches('?').split_once(' ').unwrap();
+            assert!(said.contains(offered), "{line}: {said}");
+            assert_eq!(plainly(&hear(yes)), plain, "{line}: {said}");
+        }
+    }
+    assert!(asked > 10, "{asked}");
+}
+
+/// A slip of the pen in every word of a question is mended, or the question as it may be meant waits for a yes.
+#[test]
+fn slips_in_several_words_wait_for_a_yes() {
+    let Some(mut engine) = engine("../shared/data/procthor/house_3.json") else { return };
+    for (typed, meant) in [
+        (
+            "how mnay chiars are round the dining tabel in the living room?",
+            "How many chairs are round the dining table in the living room",
+        ),
+        ("which room is teh bigest?", "which room is the biggest"),
+    ] {
+        let plain = answer(&engine, meant).expect(meant);
+        let mut dialogue = Dialogue::default();
+        let mut hear =
+            |said: &str| dialogue.hear(&mut engine, said, &mut |_, _| {}).expect("a map").text();
+        let said = hear(typed);
+        let told = if plainly(&said) == plain { said } else { hear("yes") };
+        assert_eq!(plainly(&told), plain, "{typed}");
+    }
+}

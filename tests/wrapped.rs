@@ -189,6 +189,78 @@ fn a_particle_within_a_question_changes_no_answer() {
     tally.end(95);
 }
 
+const ADVERBS_RU: [&str; 14] = [
+    "сегодня",
+    "вообще",
+    "собственно",
+    "быстренько",
+    "честно говоря",
+    "случайно",
+    "всё ещё",
+    "на данный момент",
+    "в итоге",
+    "реально",
+    "братан",
+    "если не трудно",
+    "пожалуйста",
+    "нынче",
+];
+const ADVERBS_EN: [&str; 14] = [
+    "today",
+    "exactly",
+    "these days",
+    "real quick",
+    "do you think",
+    "by any chance",
+    "still",
+    "at this very moment",
+    "in fact",
+    "already",
+    "mate",
+    "if you know",
+    "please",
+    "even",
+];
+
+/// An adverb that bounds nothing, at either end of a question and with no comma: the same answer, or none; and mostly there is
+/// one. So of an order: what is understood is what was without it.
+#[test]
+fn an_adverb_at_either_end_changes_nothing() {
+    let mut tally = Tally::default();
+    for case in cases() {
+        for (n, question) in some(&case) {
+            let Some(plain) = answered(&case.engine, question) else { continue };
+            let adverbs = if is_russian(question) { &ADVERBS_RU } else { &ADVERBS_EN };
+            for adverb in [adverbs[n % 14], adverbs[(n * 5 + 3) % 14]] {
+                let begun = question.trim_end_matches('?');
+                for line in
+                    [format!("{begun} {adverb}?"), format!("{adverb} {}", uncapitalized(question))]
+                {
+                    tally.add(case.name, &line, answered(&case.engine, &line), &plain);
+                }
+            }
+        }
+    }
+    tally.end(80);
+    let engine = Engine::in_memory(crate::worlds::rb2(), None).unwrap();
+    let understood = |line: &str| engine.understand(line).ok().map(|all| format!("{all:?}"));
+    for (order, adverbs) in [
+        (
+            "принеси зонт",
+            ["быстренько", "прямо сейчас", "как можно скорее", "если можешь", "ещё раз"],
+        ),
+        ("поезжай в Комнату-Y", ["сразу", "по-быстрому", "на минутку", "чувак", "когда сможешь"]),
+        ("bring the umbrella", ["right away", "asap", "as soon as you can", "real quick", "bro"]),
+        ("go to Room-Y", ["hurry up", "for a second", "this time", "if you would", "today"]),
+    ] {
+        let plain = understood(order);
+        assert!(plain.is_some(), "{order}");
+        for line in adverbs.map(|adverb| format!("{order} {adverb}")) {
+            assert_eq!(understood(&line), plain, "{line}");
+        }
+    }
+}
+
 /// What is led in by words that ask for nothing themselves is answered as it is without them, or not at all; mostly it is.
 #[test]
 fn what_leads_a_question_in_changes_no_answer() {

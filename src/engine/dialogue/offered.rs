@@ -34,11 +34,11 @@ impl Dialogue {
     ) -> Result<Reply, Error> {
         let offers = match &unanswered.doubt {
             Doubt::NotUnderstood { .. } | Doubt::Unheeded { .. } => {
-                engine.questions_near(line, true)?
+                engine.questions_near(line, true, &mut self.memory)?
             }
             // Of what the map lacks nothing else is asked, but in an aside.
             Doubt::Unknown { .. } | Doubt::NoReferent { .. } | Doubt::Windows => {
-                engine.questions_near(line, false)?
+                engine.questions_near(line, false, &mut self.memory)?
             }
             _ => Vec::new(),
         };
@@ -114,7 +114,7 @@ impl Hearing<'_, '_> {
             return Ok(true);
         }
         // "Are the lamps on? I can't remember if I switched them off"
-        let asks = self.engine.question_within(line)?.is_some();
+        let asks = self.engine.question_within(line, &mut memory.clone())?.is_some();
         if asks {
             self.ask(line)?;
         }

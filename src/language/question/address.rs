@@ -22,6 +22,29 @@ use crate::words::{is_first_person, phrase_at, word_keys, word_ranges};
 /// A line without the words by which somebody is spoken to, and without particles of speech.
 #[must_use]
 pub fn unaddressed(line: &str) -> Cow<'_, str> {
+    match unstressed(line) {
+        Some(plain) => Cow::Owned(unspoken(&plain).into_owned()),
+        None => unspoken(line),
+    }
+}
+
+/// A line without «-то», where that only stresses a word: «куда её поставили-то?», but «где-то».
+fn unstressed(line: &str) -> Option<String> {
+    const STRESS: &str = "-то";
+    let mut plain = line.to_owned();
+    for (at, _) in line.rmatch_indices(STRESS) {
+        let ends = line[at + STRESS.len()..].chars().next().is_none_or(|c| !c.is_alphanumeric());
+        let word = line[..at].rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+        let word = word.to_lowercase();
+        let asks = set!("IndefiniteStem").iter().any(|stem| word.starts_with(stem));
+        if ends && !word.is_empty() && !asks {
+            plain.replace_range(at..at + STRESS.len(), "");
+        }
+    }
+    (plain != line).then_some(plain)
+}
+
+fn unspoken(line: &str) -> Cow<'_, str> {
     let mut cuts = Vec::new();
     let mut from = 0;
     let asks = line.trim_end().ends_with('?');

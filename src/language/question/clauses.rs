@@ -74,6 +74,49 @@ impl Asker<'_> {
         runs.filter(is_free).map(core).collect()
     }
 
+    /// The runs of a line that ask, as they begin or end, and beside which nothing bounds them: the longest first. Within a
+    /// part a run begins behind a joint, or with a word that asks: "gotta know which …".
+    #[must_use]
+    pub fn asked_within<'t>(&self, text: &'t str) -> Vec<&'t str> {
+        const MOST: usize = 16;
+        let parts = parts(text);
+        if parts.len() > MOST {
+            return Vec::new();
+        }
+        let bounds: Vec<bool> =
+            parts.iter().map(|(from, to)| self.bounds(&text[*from..*to])).collect();
+        let mut found = Vec::new();
+        for (n, (from, to)) in parts.iter().enumerate() {
+            let part = &text[*from..*to];
+            let (words, keys) = (word_ranges(part), word_keys(part));
+            let asks = |at: usize| {
+                vocabulary::longest(&keys[at..=at]).is_some_and(|(_, mark)| mark.asks())
+            };
+            // "In which rooms", and behind "so", «а».
+            let begins = |at: usize| {
+                let behind_joint = || (1..=at).any(|taken| joined(&keys[at - taken..at]) == taken);
+                at == 0
+                    || behind_joint()
+                    || asks(at) && !goes_on(&part[..words[at].start], &part[words[at].start..])
+            };
+            for at in (0..keys.len()).filter(|at| begins(*at)) {
+                let begin = from + words[at].start;
+                if at > 0 && self.bounds(&text[*from..begin]) {
+                    continue;
+                }
+                let runs = (n..parts.len()).map(|last| (last, &text[begin..parts[last].1]));
+                let is_free =
+                    |last: usize| (0..parts.len()).all(|k| (n..=last).contains(&k) || !bounds[k]);
+                let asks = |run: &str| self.asks(run) || self.begins_as_question(&self.plain(run));
+                let asking = runs.filter(|(last, run)| is_free(*last) && asks(run));
+                found.extend(asking.map(|(_, run)| run));
+            }
+        }
+        found.sort_by_key(|run| std::cmp::Reverse(run.len()));
+        found.retain(|run| *run != text);
+        found
+    }
+
     /// «После ремонта», "last week", «летом»: no clause of its own, but a time or a place of what is asked.
     fn is_adverbial(&self, clause: &str) -> bool {
         let keys = word_keys(clause);
@@ -139,6 +182,11 @@ impl Asker<'_> {
             self.hear_of(told, &mut after);
             if self.is_astray(told) {
                 Self::lose_person(told, &mut after);
+            }
+            // "Still in bed, how do I get to the kitchen?"
+            if self.asks_the_way(asked) {
+                let places = parts_of(told).filter_map(|part| self.place_alone(part));
+                places.for_each(|place| self.hear_of_place(&place, &mut after));
             }
             let answer = self.ask(asked, &mut after).ok()?;
             // Whither was told, and came to nothing.

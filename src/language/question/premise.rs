@@ -94,6 +94,16 @@ impl Asker<'_> {
     }
 
     fn stay(&self, text: &str) -> Option<Noun> {
+        self.place_of_stay(text).and_then(|(place, me)| Some(place).filter(|_| me))
+    }
+
+    /// The place of a part that tells a place and nobody who is there: "still in bed".
+    pub(super) fn place_alone(&self, text: &str) -> Option<Noun> {
+        self.place_of_stay(text).map(|(place, _)| place)
+    }
+
+    /// Where somebody is by a part of a line that says that and no more, and whether that is the person.
+    fn place_of_stay(&self, text: &str) -> Option<(Noun, bool)> {
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let (mut me, mut places) = (false, Vec::new());
@@ -136,7 +146,7 @@ impl Asker<'_> {
                 _ => return None,
             }
         }
-        self.one_place(places).filter(|_| me)
+        Some((self.one_place(places)?, me))
     }
 
     /// One place of all that a person tells of where it is: "at the counter upstairs", "in the kitchen by the sink". A thing

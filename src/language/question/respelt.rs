@@ -7,6 +7,7 @@ use super::grammar::{Item, Sentence};
 use super::mark::Mark;
 use super::{Answer, Asker, Memory, vocabulary};
 use crate::sets::Set;
+use crate::units::name_key;
 use crate::words::{self, Language, word_keys, word_ranges};
 
 /// Shorter words are too like each other.
@@ -28,11 +29,32 @@ impl Asker<'_> {
         }
     }
 
+    /// A text with what may be slips in it mended, which a person has to confirm: short words too, wherever they stand, and
+    /// those of questions ("how mnay"). None where nothing is.
+    #[must_use]
+    pub fn perhaps_respelt(&self, text: &str) -> Option<String> {
+        let unknown = self.unknown_keys(text);
+        let words = word_ranges(text).into_iter().zip(word_keys(text)).rev();
+        let mut mended = text.to_owned();
+        let unknown = words.filter(|(_, key)| unknown.contains(key) && is_mistyped(key));
+        for (at, key) in unknown.filter(|(_, key)| key.chars().count() > 2) {
+            let named = self.mind.lexicon.nouns.respelt(&key);
+            let listed = vocabulary::near(&key);
+            let word: &str = match (&named, &listed[..]) {
+                (Some(named), []) => named,
+                (Some(named), [only]) if *only == name_key(named) => named,
+                (None, [only]) => *only,
+                _ => continue,
+            };
+            mended.replace_range(at, word);
+        }
+        (mended != text).then_some(mended)
+    }
+
     /// A text with its mistyped words mended; none where nothing is.
     fn respelt(&self, text: &str) -> Option<String> {
-        let plain = self.plain(text);
         let (words, keys) = (word_ranges(text), word_keys(text));
-        let unknown = unknown_keys(&Sentence::new(&plain, &self.mind.lexicon));
+        let unknown = self.unknown_keys(text);
         let mut mended = text.to_owned();
         let mut any = false;
         for at in (0..keys.len()).rev() {
@@ -40,15 +62,10 @@ impl Asker<'_> {
             if key.chars().count() < SHORTEST || !unknown.contains(key) {
                 continue;
             }
-            let mistyped = match Language::of(key) {
-                Language::Russian => !words::is_russian_word(key),
-                // No dictionary of English is at hand: only where a noun must stand.
-                Language::English => {
-                    at > 0 && precedes_noun(&keys[at - 1]) && !words::everyday::is_in_list(key)
-                }
-            };
-            // "Are there any left?" has no lift in it.
-            let mistyped = mistyped && !vocabulary::is_in_a_phrase(key);
+            // No dictionary of English is at hand: only where a noun must stand.
+            let is_placed =
+                Language::of(key) == Language::Russian || at > 0 && precedes_noun(&keys[at - 1]);
+            let mistyped = is_placed && is_mistyped(key);
             let word = self.mind.lexicon.nouns.respelt(key).filter(|_| mistyped);
             // «Coke» is no slip of "coe".
             let is_long = |word: &str| word.chars().count() >= SHORTEST;
@@ -58,6 +75,18 @@ impl Asker<'_> {
             }
         }
         any.then_some(mended)
+    }
+
+    /// The words of a text that nothing knows.
+    fn unknown_keys(&self, text: &str) -> Vec<String> {
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
+        let unknown = items.iter().filter_map(|item| match item {
+            Item::Unknown(words) => Some(sentence.keys[words.clone()].to_vec()),
+            _ => None,
+        });
+        unknown.flatten().collect()
     }
 }
 
@@ -84,14 +113,13 @@ fn is_slip(typed: &str, meant: &str) -> bool {
     }
 }
 
-/// The words of a sentence that nothing knows.
-fn unknown_keys(sentence: &Sentence<'_>) -> Vec<String> {
-    let items = sentence.items();
-    let unknown = items.iter().filter_map(|item| match item {
-        Item::Unknown(words) => Some(sentence.keys[words.clone()].to_vec()),
-        _ => None,
-    });
-    unknown.flatten().collect()
+/// Whether a word is none that is known to be one: "Are there any left?" has no lift in it.
+fn is_mistyped(key: &str) -> bool {
+    let is_word = match Language::of(key) {
+        Language::Russian => words::is_russian_word(key),
+        Language::English => words::everyday::is_in_list(key),
+    };
+    !is_word && !vocabulary::is_in_a_phrase(key)
 }
 
 /// Whether a noun must follow an English word: an article, whose it is, how many, a quality.

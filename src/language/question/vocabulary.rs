@@ -1,6 +1,6 @@
 //! The words of questions in both languages, and what each does in a sentence.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::OnceLock;
 
 use super::mark::{Mark, Pronoun};
@@ -180,6 +180,25 @@ fn is_parted(mark: Mark) -> bool {
 /// Whether a word is in any phrase of the vocabulary: it is a word, whatever it does there.
 pub(super) fn is_in_a_phrase(key: &str) -> bool {
     table().values().flatten().any(|(phrase, _)| phrase.iter().any(|word| word == key))
+}
+
+/// The words of the vocabulary's phrases that are a slip of the pen away from a word, in order.
+pub(super) fn near(key: &str) -> Vec<&'static str> {
+    let length = key.chars().count();
+    let is_slip = |word: &&str| {
+        word.chars().count().abs_diff(length) < 2 && strsim::damerau_levenshtein(key, word) == 1
+    };
+    let words = table().values().flatten().flat_map(|(phrase, _)| phrase);
+    let near: BTreeSet<&str> = words.map(String::as_str).filter(is_slip).collect();
+    // Letters that changed places are the likeliest slip: "mnay" is "many" rather than "may".
+    let letters = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let typed = letters(key);
+    let exchanged: Vec<&str> = near.iter().copied().filter(|word| letters(word) == typed).collect();
+    if exchanged.is_empty() { near.into_iter().collect() } else { exchanged }
 }
 
 #[cfg(test)]

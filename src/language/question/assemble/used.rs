@@ -7,7 +7,7 @@ use super::Spot;
 use crate::question::lexicon::{Extension, KindId};
 use crate::question::mark::Mark;
 use crate::question::purposes::{self, Role};
-use crate::question::query::{Claim, Head, Noun, Query, Rel, Restriction, Sized};
+use crate::question::query::{Claim, Dimension, Head, Noun, Query, Rel, Restriction, Sized};
 use crate::question::uses;
 use crate::question::values::{Property, ValueId};
 use crate::words::Language;
@@ -234,6 +234,11 @@ impl Frame<'_, '_> {
         }
         // "When did you last clean the bathroom?": what is done and what is so look alike.
         if matches!(query, Query::LastSeen(_) | Query::Before(_)) && !self.values.is_empty() {
+            return Some(self.sentence.text.to_owned());
+        }
+        // "How high is the lamp above the table?" asks how far above it, not how high that one is.
+        let above = |of: &Noun| of.restrictions.iter().any(|r| r.rel == Rel::Above);
+        if matches!(query, Query::Size { dimension: Dimension::Height, of } if above(of)) {
             return Some(self.sentence.text.to_owned());
         }
         // «Какого цвета не бывает стульев?»

@@ -113,6 +113,8 @@ impl<'t> Sentence<'t> {
             Some((2, Mark::Filler)) if at > 0 && keys == ["it", "is"] => {
                 Some((1, Mark::Pronoun(Pronoun::Any)))
             }
+            // "the chairs round the table", but "the round table"
+            None if self.is_round_something(at) => Some((1, Mark::Link(Rel::Near))),
             mark => mark,
         };
         // "for cutting bread", but "a cutting board"
@@ -224,6 +226,22 @@ impl<'t> Sentence<'t> {
             }
             _ => push(self, 1, Tok::Unknown),
         }
+    }
+
+    /// Whether "round" stands behind a noun or "is" and before an article or a pronoun, as prepositions do.
+    fn is_round_something(&self, at: usize) -> bool {
+        let next = self.keys.get(at + 1..).unwrap_or_default();
+        let governs = matches!(
+            vocabulary::longest(next),
+            Some((_, Mark::The | Mark::A | Mark::Each | Mark::All | Mark::Pronoun(_)))
+        );
+        let behind = self.tokens.last().is_some_and(|t| {
+            matches!(
+                t.kind,
+                Tok::Noun(_) | Tok::Unknown | Tok::Mark(Mark::Be | Mark::Exists | Mark::There)
+            )
+        });
+        self.keys[at] == "round" && governs && behind
     }
 
     /// «Что висит выше всех?» asks for a place, «Какой шкаф выше всех?» for a size.
