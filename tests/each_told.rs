@@ -143,7 +143,7 @@ fn some_or_each_of_them_are_those_that_were_told() {
         let world = engine.world().unwrap();
         let kinds = by_kind(world);
         let told = kinds.iter().filter(|(_, all)| (2..6).contains(&all.len()));
-        for (n, ((russian, name), all)) in told.enumerate().take(if long() { 30 } else { 8 }) {
+        for (n, ((russian, name), all)) in told.enumerate().take(if long() { 30 } else { 5 }) {
             let sought = kinds.keys().skip(n % 3).step_by(if long() { 3 } else { 7 });
             for (other_russian, other) in sought.filter(|(_, other)| other != name) {
                 let list = format!("How many {} are there?", english::plural(name));
@@ -153,15 +153,20 @@ fn some_or_each_of_them_are_those_that_were_told() {
                     };
                     let questions: Vec<String> = all.iter().map(each).collect();
                     for (words, share) in ENGLISH {
-                        let line = format!("Is there a {other} {link} {words}?");
-                        compare(
-                            &engine,
-                            [&list, &line],
-                            all,
-                            &questions,
-                            share,
-                            [&mut heard, &mut yes, &mut refused],
-                        );
+                        let mut lines = vec![format!("Is there a {other} {link} {words}?")];
+                        if matches!(share, "any" | "either") && link == "on" {
+                            lines.push(format!("Does {words} have a {other} {link} it?"));
+                        }
+                        for line in lines {
+                            compare(
+                                &engine,
+                                [&list, &line],
+                                all,
+                                &questions,
+                                share,
+                                [&mut heard, &mut yes, &mut refused],
+                            );
+                        }
                     }
                 }
                 let list = format!("Сколько {}?", many(russian, Case::Genitive));
@@ -212,6 +217,21 @@ fn compare(
             assert_eq!(answer.said, said, "{list} {line} {}", answer.text);
             *heard += 1;
             *yes += usize::from(plain);
+            if plain && share == "any" {
+                let so = |question: &String| {
+                    plainly(engine, question).is_some_and(|answer| answer.said == Said::Yes)
+                };
+                let meant = all.iter().zip(questions).filter(|(_, question)| so(question));
+                let meant: BTreeSet<Thing> = meant.map(|(id, _)| replica(*id)).collect();
+                let which = if line.starts_with("Есть") {
+                    "Какой из них?"
+                } else {
+                    "Which one?"
+                };
+                let told = ask(engine, which, &mut memory).map(|answer| answer.things);
+                let told: BTreeSet<Thing> = told.into_iter().flatten().collect();
+                assert_eq!(told, meant, "{list} {line} {which}");
+            }
         }
         _ => *refused += 1,
     }

@@ -1,5 +1,5 @@
 //! A word for some, each or none of those that were told, in any place of a question: "on any of them", «хоть у одного из них»,
-//! "near both"; and which of them has most of something, or something: "Which of the two has more chairs around it?"
+//! "near both".
 //!
 //! Invariant: it is asked of each by its name, and what is told are the answers to that; where one of them has no answer of
 //! the sort, none is given.
@@ -9,19 +9,25 @@ use std::ops::Range;
 use super::grammar::Sentence;
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
+use super::memory::Exchange;
 use super::numbered::genders;
-use super::query::{Extreme, Rel};
+use super::query::Rel;
 use super::resolution::case_of;
 use super::{Answer, Asker, Doubt, Memory, Outcome, Query, Said, Thing, vocabulary};
 use crate::sets::set;
 use crate::units::capitalized;
 use crate::words::{Case, Language, phrase_at, word_keys, word_ranges};
 
+/// What a question that is asked of each by itself is called among the forms of questions.
+const EACH: &str = "each";
+
 /// Of how many of those that were told something is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Share {
     Any,
     Each,
+    /// «Ни на одном из них нет книги?»: of each it is denied.
+    EachNot,
     None,
 }
 
@@ -38,13 +44,24 @@ struct Told {
     of_two: bool,
 }
 
+impl Told {
+    /// "Is there a book not on any of them?": what is denied of any is denied of each; but "Isn't there one on any of them?"
+    fn is_denied(&self, keys: &[String]) -> bool {
+        let denies = |n: &usize| set!("NotWord").contains(&keys[*n].as_str());
+        let first = keys.iter().take(2).filter(|key| set!("NotWord").contains(&key.as_str()));
+        let inverted = first.count() > 0 && !denies(&self.lead.start.saturating_sub(1));
+        !matches!(self.share, Share::Each | Share::EachNot)
+            && (if inverted { 2 } else { 0 }..keys.len()).any(|n| denies(&n))
+    }
+}
+
 /// The longest of some phrases that stand at a word.
-fn taken(keys: &[String], at: usize, all: &[&str]) -> Option<usize> {
+pub(super) fn taken(keys: &[String], at: usize, all: &[&str]) -> Option<usize> {
     all.iter().filter_map(|phrase| phrase_at(keys, at, phrase)).max()
 }
 
 /// Where the preposition before a word begins; where there is none, at the word.
-fn link_before(keys: &[String], at: usize) -> (usize, Option<Rel>) {
+pub(super) fn link_before(keys: &[String], at: usize) -> (usize, Option<Rel>) {
     let link = |from: usize| match vocabulary::longest(&keys[from..at]) {
         Some((taken, Mark::Link(rel))) if taken == at - from => Some((from, Some(rel))),
         _ => None,
@@ -53,7 +70,7 @@ fn link_before(keys: &[String], at: usize) -> (usize, Option<Rel>) {
 }
 
 /// What a preposition takes, by its last word: «рядом с» as «с» does.
-fn case_behind(keys: &[String], at: usize, rel: Option<Rel>) -> Case {
+pub(super) fn case_behind(keys: &[String], at: usize, rel: Option<Rel>) -> Case {
     let Some(rel) = rel else { return Case::Nominative };
     let last = &keys[at - 1];
     if set!("With").contains(&last.as_str()) {
@@ -122,8 +139,7 @@ fn told_in(sentence: &Sentence<'_>) -> Option<Told> {
         let denied = link > 0 && set!("NotEven").contains(&keys[link - 1].as_str());
         let least = || (0..link).find(|n| taken(keys, *n, set!("AtLeastOne")) == Some(link - n));
         let (lead, share) = match denied {
-            // «Ни на одном из них нет книги?»: of each it is denied.
-            true => (link - 1, Share::Each),
+            true => (link - 1, Share::EachNot),
             false => (least().unwrap_or(link), share),
         };
         let of_two = taken(keys, at, set!("OfTwoTold")).is_some();
@@ -151,9 +167,17 @@ impl Asker<'_> {
         if let Some(outcome) = told(true) {
             return outcome;
         }
-        self.answer_whole(text, language, memory).or_else(|unanswered| match unanswered.0 {
-            Doubt::Ambiguous { .. } | Doubt::Unheeded { .. } => Err(unanswered),
-            _ => told(false).and_then(Result::ok).ok_or(unanswered),
+        self.answer_whole(text, language, memory).or_else(|unanswered| {
+            let is_clear = match &unanswered.0 {
+                // "How far is each of them from the fridge?" is asked of each, and not which.
+                Doubt::Ambiguous { reference, .. } => !speaks_of_told(&word_keys(reference)),
+                doubt => matches!(doubt, Doubt::Unheeded { .. }),
+            };
+            if is_clear {
+                return Err(unanswered);
+            }
+            let of_two = || self.answer(&self.of_them(text, memory)?, language, memory).ok();
+            told(false).and_then(Result::ok).or_else(of_two).ok_or(unanswered)
         })
     }
 
@@ -166,17 +190,29 @@ impl Asker<'_> {
         language: Language,
         memory: &Memory,
     ) -> Option<Outcome> {
-        if !speaks_of_told(&word_keys(text)) {
+        let keys = word_keys(text);
+        // Which of those of which it was asked whether it is so of any.
+        let which = set!("BareWhich").contains(&keys.join(" ").as_str())
+            && matches!(memory.query, Some(Query::Ran { form: EACH, .. }));
+        if which && !governed {
+            return None;
+        }
+        // Where it is so of none, none is meant.
+        if which && memory.so != Some(true) {
+            return Some(Err(Box::new((Doubt::NoReferent { word: text.to_owned() }, None))));
+        }
+        let text = if which { &*memory.words } else { text };
+        if !which && !speaks_of_told(&keys) {
             return None;
         }
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let said = told_in(&sentence)?;
-        if (said.link == said.words.start) == governed || self.is_collective(&sentence) {
+        if !which && self.is_first(&said, &sentence) != governed {
             return None;
         }
         let (_, rel) = link_before(&sentence.keys, said.words.start);
         let genders = genders(&sentence.keys[said.words.start..=said.words.start]);
-        let things = self.all_told(rel, memory)?;
+        let things = self.all_told(rel, said.of_two, memory)?;
         let knowledge = self.knowledge(language, memory);
         let agree = |thing: &Thing| {
             genders.is_empty() || genders.iter().any(|gender| knowledge.agrees(*gender, *thing))
@@ -184,13 +220,25 @@ impl Asker<'_> {
         if said.of_two && things.len() != 2 {
             return None;
         }
-        let unclear = || Err(Box::new((Doubt::not_understood(text), None)));
+        let about = sentence.said(&said.words).to_owned();
+        let unclear = || Err(Box::new((Doubt::Incomplete { about: about.clone() }, None)));
         // «Сколько тумб? Что на каждом из них?» may be of something else.
-        if !things.iter().all(agree) {
+        if !which && (!things.iter().all(agree) || said.is_denied(&sentence.keys)) {
             return Some(unclear());
         }
         let case = case_behind(&sentence.keys, said.words.start, rel);
         let words = &sentence.words;
+        // "What is between both of them?"
+        if rel == Some(Rel::Between) {
+            let at = words[said.words.start].start..words[said.words.end - 1].end;
+            let mut asked = text.to_owned();
+            asked.replace_range(at, &knowledge.listed(&things, case));
+            let of_pair = said.of_two && said.share == Share::Each;
+            return of_pair.then(|| self.answer(&asked, language, memory));
+        }
+        if self.is_collective(&sentence) {
+            return None;
+        }
         let mut answers = Vec::new();
         for thing in &things {
             let mut asked = text.to_owned();
@@ -207,6 +255,21 @@ impl Asker<'_> {
                 Err(_) => return Some(unclear()),
             }
         }
+        let query = |answer: &Answer| ran(&knowledge, &answer.query);
+        // "Is there a sofa in front of any of them? – Yes. – Which one?"
+        if which {
+            let is_so = |n: &usize| answers[*n].so == Some(true);
+            let all: Vec<usize> = (0..things.len()).filter(is_so).collect();
+            let meant: Vec<Thing> = all.iter().map(|n| things[*n]).collect();
+            let list = capitalized(&knowledge.list(&meant));
+            let told = bare(all.iter().map(|n| &answers[*n]).collect());
+            let text = language.pick(format!("Это {list}. {told}"), format!("{list}. {told}"));
+            let joined = Answer::joined(answers, language);
+            let query = query(&joined);
+            let (topic, said) = (meant.clone(), Said::Found);
+            let answer = Answer { query, said, so: None, text, things: meant, topic, ..joined };
+            return (!all.is_empty()).then_some(Ok(answer));
+        }
         let whether = |answer: &Answer| {
             matches!(answer.said, Said::Yes | Said::No)
                 || answer.said == Said::Unknown && answer.so.is_none()
@@ -216,8 +279,36 @@ impl Asker<'_> {
             false => each_of(answers, said.share, &things, language),
         };
         let Some(answer) = answer else { return Some(unclear()) };
-        let query = ran(&knowledge, &answer.query);
-        Some(Ok(Answer { query, words: text.to_owned(), ..answer }))
+        Some(Ok(Answer { query: query(&answer), words: text.to_owned(), ..answer }))
+    }
+
+    /// Whether a word is taken so before the question is read otherwise: where a preposition governs it, or what some of them
+    /// have is asked after ("Does any of them have a book on it?").
+    fn is_first(&self, said: &Told, sentence: &Sentence<'_>) -> bool {
+        let keys = &sentence.keys;
+        let has = |n: usize| {
+            matches!(vocabulary::longest(&keys[n..=n]), Some((_, Mark::Have)))
+                || set!("WhetherWord").contains(&keys[n].as_str()) && said.words.contains(&n)
+        };
+        said.link < said.words.start
+            || matches!(said.share, Share::Any | Share::None)
+                && (said.words.end..keys.len()).any(has)
+            || said.words.clone().any(has)
+    }
+
+    /// "Which of the two is closer to the fridge?", of two that were told: which of them.
+    fn of_them(&self, text: &str, memory: &Memory) -> Option<String> {
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let (at, end) = (1..keys.len())
+            .find_map(|at| Some((at, at + taken(&keys, at, set!("TwoOfTold"))?)))
+            .filter(|(at, _)| {
+                (0..*at).any(|n| taken(&keys, n, set!("WhichOfTold")) == Some(at - n))
+            })?;
+        let them =
+            set!("ThoseOfTold").iter().find(|them| Language::of(them) == Language::of(text))?;
+        let is_pair = self.all_told(None, true, memory)?.len() == 2;
+        is_pair
+            .then(|| format!("{}{them}{}", &text[..words[at].start], &text[words[end - 1].end..]))
     }
 
     /// What is asked of several at once is asked of none by itself.
@@ -229,222 +320,50 @@ impl Asker<'_> {
             matches!(
                 mark,
                 Mark::Same | Mark::Differ | Mark::Alike | Mark::Total | Mark::Except | Mark::Other
-            ) || matches!(mark, Mark::Link(Rel::Between))
+            )
         })
     }
 
-    /// All that "them" are in a relation, where they are several.
-    fn all_told(&self, rel: Option<Rel>, memory: &Memory) -> Option<Vec<Thing>> {
+    /// All that "them" are in a relation, where they are several; where they are two, also those of which the last two questions
+    /// were asked, one each: "What's on the desk? And on the table? Which of the two has …?"
+    pub(super) fn all_told(
+        &self,
+        rel: Option<Rel>,
+        of_two: bool,
+        memory: &Memory,
+    ) -> Option<Vec<Thing>> {
         /// So many are asked of one by one.
         const MOST: usize = 20;
         if memory.awaits_reply() {
             return None;
         }
-        let rel = rel.filter(|_| memory.last.len() > 1).or(Some(Rel::Of));
-        let told = self.knowledge(memory.language, memory).referent(Pronoun::They, rel);
+        let knowledge = self.knowledge(memory.language, memory);
+        let told = rel.filter(|_| memory.last.len() > 1).or(Some(Rel::Of));
         let mut things: Vec<Thing> = Vec::new();
-        for thing in told {
+        for thing in knowledge.referent(Pronoun::They, told) {
             if !things.contains(&thing) {
                 things.push(thing);
             }
         }
-        (2..=MOST).contains(&things.len()).then_some(things)
-    }
-
-    /// "Which of the two has more chairs around it?", «На каком из них больше книг?», "Which of them has a cup on it?": of
-    /// those that were told, by how many there are at each, or whether any; `first`, before it is read otherwise.
-    pub(super) fn which_told(
-        &self,
-        text: &str,
-        first: bool,
-        language: Language,
-        memory: &Memory,
-    ) -> Option<Answer> {
-        let asked = WhichTold::read(text, language)?;
-        let goes_first = asked.extreme.is_some() || !matches!(asked.rel, Rel::On | Rel::In);
-        if goes_first != first {
-            return None;
+        if !of_two {
+            return (2..=MOST).contains(&things.len()).then_some(things);
         }
-        let things = self.all_told(Some(asked.rel), memory)?;
-        let knowledge = self.knowledge(language, memory);
-        if asked.of_two && things.len() != 2 {
-            return None;
-        }
-        let mut answers = Vec::new();
-        for thing in &things {
-            let name = knowledge.form(*thing, asked.case);
-            answers.push(self.answer(&asked.plainly(&name), language, memory).ok()?);
-        }
-        let (best, told): (Vec<usize>, String) = match asked.extreme {
-            None => {
-                let yes = |n: &usize| answers[*n].said == Said::Yes;
-                let is_whether = |a: &Answer| matches!(a.said, Said::Yes | Said::No);
-                if !answers.iter().all(is_whether) {
-                    return None;
-                }
-                let has: Vec<usize> = (0..answers.len()).filter(yes).collect();
-                let told = match has.is_empty() {
-                    true => bare(answers.iter().collect()),
-                    false => bare(has.iter().map(|n| &answers[*n]).collect()),
-                };
-                (has, told)
-            }
-            Some(extreme) => {
-                let counts: Option<Vec<f64>> = answers
-                    .iter()
-                    .map(|a| matches!(a.query, Query::Count(_)).then_some(a.number).flatten())
-                    .collect();
-                let counts = counts?;
-                let most = match extreme {
-                    Extreme::Fewest => counts.iter().copied().fold(f64::INFINITY, f64::min),
-                    _ => counts.iter().copied().fold(0.0, f64::max),
-                };
-                let is_best = |n: &usize| counts[*n].total_cmp(&most).is_eq();
-                let best: Vec<usize> = (0..counts.len()).filter(is_best).collect();
-                (best, bare(answers.iter().collect()))
-            }
+        let topics: Vec<Thing> =
+            memory.exchanges.iter().take(2).rev().filter_map(Exchange::topic).collect();
+        let alike = |pair: &Vec<Thing>| {
+            let are_rooms = pair.iter().all(|thing| thing.area().is_some());
+            pair.len() == 2 && pair[0] != pair[1] && (are_rooms || knowledge.alike(pair).is_some())
         };
-        let winners: Vec<Thing> = best.iter().map(|n| things[*n]).collect();
-        let equal = winners.len() == things.len() && asked.extreme.is_some();
-        let list = knowledge.list(&winners);
-        let text_told = match (winners.is_empty(), equal) {
-            (true, _) => {
-                language.pick(format!("Ни один из них. {told}"), format!("None of them. {told}"))
-            }
-            (_, true) => {
-                language.pick(format!("Поровну. {told}"), format!("The same number. {told}"))
-            }
-            _ => language.pick(format!("Это {list}. {told}"), format!("{list}. {told}")),
+        let may = |pair: &Vec<Thing>| {
+            pair.len() == 2
+                && rel.is_none_or(|rel| pair.iter().all(|t| knowledge.may_be_anchor(rel, *t)))
         };
-        let said = if winners.is_empty() { Said::Nothing } else { Said::Found };
-        let topic = if winners.is_empty() { things } else { winners.clone() };
-        let joined = Answer::joined(answers, language);
-        let query = ran(&knowledge, &joined.query);
-        Some(Answer {
-            query,
-            said,
-            text: text_told,
-            things: winners,
-            topic,
-            number: None,
-            so: None,
-            words: text.to_owned(),
-            ..joined
-        })
-    }
-}
-
-/// "Which of them has …?", by what it asks of each.
-struct WhichTold {
-    /// «больше», "fewer"; none where it is asked which has any.
-    extreme: Option<Extreme>,
-    noun: String,
-    /// The preposition as it was said.
-    link: String,
-    rel: Rel,
-    case: Case,
-    of_two: bool,
-    language: Language,
-}
-
-impl WhichTold {
-    fn read(text: &str, language: Language) -> Option<Self> {
-        let (words, keys) = (word_ranges(text), word_keys(text));
-        let said = |range: Range<usize>| match range.is_empty() {
-            true => String::new(),
-            false => text[words[range.start].start..words[range.end - 1].end].to_owned(),
-        };
-        let start = taken(&keys, 0, set!("AndWord")).unwrap_or(0);
-        // «На каком из них», "on which of them", "which of the two".
-        let which = (start..keys.len().min(start + 5))
-            .find(|n| taken(&keys, *n, set!("WhichOfTold")).is_some())?;
-        let of = which + taken(&keys, which, set!("WhichOfTold"))?;
-        let them = taken(&keys, of, set!("ThoseOfTold"));
-        let alone =
-            || set!("WhichOneTold").contains(&keys[which..of].join(" ").as_str()).then_some(0);
-        let end = of + them.or_else(alone)?;
-        let of_two = taken(&keys, of, set!("TwoOfTold")).is_some();
-        let (link, rel) = link_before(&keys, which);
-        if link != start {
-            return None;
-        }
-        let mark = |n: usize| vocabulary::longest(&keys[n..=n]).map(|(_, mark)| mark);
-        let small = |n: usize| {
-            matches!(
-                mark(n),
-                Some(
-                    Mark::Be
-                        | Mark::Exists
-                        | Mark::Have
-                        | Mark::Hang
-                        | Mark::The
-                        | Mark::A
-                        | Mark::Filler
-                )
-            )
-        };
-        let mut from = end;
-        while from < keys.len() && (small(from) || set!("ThereWord").contains(&&*keys[from])) {
-            from += 1;
-        }
-        let (mut extreme, mut noun) = (None, from);
-        for at in from..keys.len() {
-            // "more chairs", «больше всего книг»; «больше» is "bigger" as well.
-            if let Some((length, Mark::More(by) | Mark::Best(by))) =
-                vocabulary::longest(&keys[at..])
-            {
-                extreme = Some(match by {
-                    Extreme::Most | Extreme::Biggest => Extreme::Most,
-                    Extreme::Fewest | Extreme::Smallest => Extreme::Fewest,
-                    _ => return None,
-                });
-                noun = at + length;
-                break;
-            }
-            if at > from {
-                break;
-            }
-        }
-        let (mut until, mut own) = (keys.len(), (link, rel, which));
-        if rel.is_none() {
-            let has =
-                |n: usize| mark(n) == Some(Mark::Have) || set!("ThereWord").contains(&&*keys[n]);
-            if !(end..noun).any(has) {
-                return None;
-            }
-            // "… around it?", "… in front of them?", "… is there a cup on?"
-            if keys.last().is_some_and(|key| set!("ItBehind").contains(&key.as_str())) {
-                until -= 1;
-            }
-            let (link, rel) = link_before(&keys, until);
-            own = (link, rel, until);
-            until = link;
-        }
-        let (link, rel, behind) = (own.0, own.1?, own.2);
-        let denies = |key: &String| {
-            set!("DeniesWord").contains(&key.as_str()) || set!("NoneOf").contains(&key.as_str())
-        };
-        if noun >= until || keys[end..].iter().any(denies) {
-            return None;
-        }
-        while noun < until && (small(noun) || set!("Article").contains(&&*keys[noun])) {
-            noun += 1;
-        }
-        let noun = said(noun..until);
-        let case = case_behind(&keys, behind, Some(rel));
-        let link = said(link..behind);
-        (!noun.is_empty()).then_some(Self { extreme, noun, link, rel, case, of_two, language })
-    }
-
-    /// The question of one of them, by its name.
-    fn plainly(&self, name: &str) -> String {
-        let Self { noun, link, .. } = self;
-        let link = link.to_lowercase();
-        match (self.extreme.is_some(), self.language) {
-            (true, Language::Russian) => format!("Сколько {noun} {link} {name}?"),
-            (true, Language::English) => format!("How many {noun} are there {link} {name}?"),
-            (false, Language::Russian) => format!("Есть ли {noun} {link} {name}?"),
-            (false, Language::English) => format!("Is there a {noun} {link} {name}?"),
+        let topics = Some(topics).filter(alike).filter(|pair| !things.contains(&pair[0]));
+        // Of two pairs nothing says which.
+        match (Some(things).filter(may), topics.filter(may)) {
+            (Some(told), None) => Some(told),
+            (None, topics) => topics,
+            (Some(_), Some(_)) => None,
         }
     }
 }
@@ -456,13 +375,13 @@ fn unled(answer: &Answer) -> &str {
 }
 
 /// The same of several, each a sentence.
-fn bare(answers: Vec<&Answer>) -> String {
+pub(super) fn bare(answers: Vec<&Answer>) -> String {
     answers.into_iter().map(|answer| capitalized(unled(answer))).collect::<Vec<_>>().join(" ")
 }
 
 /// A question that was asked in parts: another goes on from none of them.
-fn ran(knowledge: &Knowledge<'_>, query: &Query) -> Query {
-    Query::Ran { form: "each", rule: knowledge.rule(query) }
+pub(super) fn ran(knowledge: &Knowledge<'_>, query: &Query) -> Query {
+    Query::Ran { form: EACH, rule: knowledge.rule(query) }
 }
 
 /// Whether it is so of any, of each or of none, by what is so of each.
@@ -477,10 +396,10 @@ fn whether_of(
     let unknown = yes.len() + no.len() < answers.len();
     let so = match share {
         Share::Any | Share::None if !yes.is_empty() => Some(share == Share::Any),
-        Share::Each if !no.is_empty() => Some(false),
+        Share::Each | Share::EachNot if !no.is_empty() => Some(false),
         _ if unknown => None,
         Share::Any => Some(false),
-        Share::Each | Share::None => Some(true),
+        Share::Each | Share::EachNot | Share::None => Some(true),
     };
     let word =
         |so: bool| language.pick(if so { "Да" } else { "Нет" }, if so { "Yes" } else { "No" });
@@ -507,7 +426,7 @@ fn whether_of(
             let each: Vec<&str> = no.iter().map(|a| unled(a).trim_end_matches('.')).collect();
             format!("{lead}{}.", each.join("; "))
         }
-        (Share::Each, Some(false)) => led(false, no),
+        (Share::Each | Share::EachNot, Some(false)) => led(false, no),
         (_, Some(so)) => led(so, all()),
     };
     let said = match so {
@@ -533,8 +452,11 @@ fn each_of(
         return None;
     }
     let finds = |a: &Answer| matches!(a.query, Query::Find(_));
+    let counts = |a: &Answer| matches!(a.query, Query::Count(_));
     let found = |a: &Answer| a.said == Said::Found;
     let answers = match share {
+        // "How many cups are on one of them?": on each so many.
+        Share::Any if answers.iter().all(counts) => answers,
         Share::Any if !answers.iter().all(finds) => return None,
         Share::Any if answers.iter().any(found) => answers.into_iter().filter(found).collect(),
         _ => answers,

@@ -81,6 +81,7 @@ mod told_together;
 mod uses;
 mod values;
 mod vocabulary;
+mod which_told;
 mod whole;
 mod why;
 mod windows;
