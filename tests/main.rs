@@ -31,6 +31,7 @@ mod disputed;
 mod doors;
 mod doubts;
 mod drawings;
+mod each_told;
 mod english_rules;
 mod exports;
 mod facts;

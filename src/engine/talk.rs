@@ -285,8 +285,10 @@ impl State {
         if conditional(line).is_some() || hinged(line).is_some() {
             return Ok(None);
         }
+        // A hyphen between blanks stands for a dash.
+        let line = line.replace(" - ", " – ");
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.corrected(line, memory))
+        Ok(self.asker(&senses)?.corrected(&line, memory))
     }
 
     /// An order with the names of what it only points at: see [`Asker::with_pointed`].

@@ -3,7 +3,7 @@
 //! Invariant: what else there is of a kind is told beside what was told of it; where nothing was, it means nothing.
 
 use super::grammar::{Item, Phrase, Sentence, number_of};
-use super::mark::Mark;
+use super::mark::{Mark, Pronoun};
 use super::numbered::genders;
 use super::query::Denial;
 use super::{Asker, Claim, Head, Memory, Noun, Query, Restriction, Thing, vocabulary};
@@ -169,6 +169,48 @@ impl Asker<'_> {
         (named && are_new).then_some(Query::Exists { what, either: false, denial: Denial::None })
     }
 
+    /// "Take the pen to the hall. – … – And are there any in the kitchen?", «А на кухне сколько?»: of the kind of what an order
+    /// was done to, as it now is.
+    pub(super) fn more_of_ordered(&self, text: &str, memory: &Memory) -> Option<Query> {
+        if !memory.is_ordered || memory.pending.is_some() {
+            return None;
+        }
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let kind = self.knowledge(sentence.language, memory).alike(&memory.last)?;
+        let (mut restrictions, mut counts, mut exists) = (Vec::new(), false, false);
+        for item in sentence.items() {
+            match item {
+                Item::Mark(Mark::Exists) => exists = true,
+                Item::Mark(Mark::HowMany) => counts = true,
+                Item::Mark(Mark::And | Mark::Be | Mark::Filler | Mark::A | Mark::One) => {}
+                Item::Mark(Mark::Anything) if sentence.keys.iter().any(is_some) => {}
+                Item::Noun(phrase)
+                    if phrase.pronoun == Some(Pronoun::They)
+                        || phrase.noun.head.anything && sentence.keys.iter().any(is_some) => {}
+                Item::Place { rel, nouns, either: false }
+                    if nouns.iter().all(|p| p.pronoun.is_none() && p.person.is_none()) =>
+                {
+                    let anchors = nouns.into_iter().map(|phrase| phrase.noun).collect();
+                    restrictions.push(Restriction { rel, anchors, negated: false });
+                }
+                _ => return None,
+            }
+        }
+        if restrictions.is_empty() {
+            return None;
+        }
+        let head = Head { kinds: vec![kind], ..Head::default() };
+        let noun = Noun { head, restrictions, plural: true, ..Noun::default() };
+        match (counts, exists) {
+            (true, _) => Some(Query::Count(noun)),
+            (false, true) => {
+                Some(Query::Exists { what: vec![noun], either: false, denial: Denial::None })
+            }
+            _ => None,
+        }
+    }
+
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
     pub(super) fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
         static SMALL: Set = Set::named("AroundAnother");
@@ -274,6 +316,11 @@ fn stands_for_noun(phrase: &Phrase) -> bool {
 fn ranks(word: &str) -> bool {
     let said = vocabulary::longest(&[word.to_owned()]);
     matches!(said, Some((_, Mark::Rank(_))))
+}
+
+/// "Any", "some", "one": of what, was said before.
+fn is_some(key: &String) -> bool {
+    set!("OneOrSome").contains(&key.as_str())
 }
 
 fn is_one(noun: &Noun) -> bool {

@@ -175,14 +175,30 @@ impl Asker<'_> {
         let [there] = &noun.restrictions[..] else { return None };
         let is_bare =
             noun.head == Head::default() && noun.filters.is_empty() && noun.best.is_none();
-        let within = |r: &Restriction| {
-            let room = r.anchors.iter().all(|anchor| self.is_room(anchor));
-            matches!(r.rel, Rel::In | Rel::On) && !r.negated && room
+        let within = |r: &Restriction, are: &dyn Fn(&Noun) -> bool| {
+            matches!(r.rel, Rel::In | Rel::On) && !r.negated && r.anchors.iter().all(are)
         };
-        if !is_bare || !within(there) {
+        let is_room = |noun: &Noun| self.is_room(noun);
+        let is_storey = |noun: &Noun| noun.is_storey(&self.mind.lexicon);
+        let goes_up = within(there, &is_storey);
+        if !is_bare || !within(there, &is_room) && !goes_up {
             return None;
         }
         let mut query = last.clone();
+        // "How many doors has the first floor? And upstairs?": another storey takes the place of a storey.
+        let mut of_storey = false;
+        query.each_noun(&mut |old| {
+            let of_room = old.restrictions.iter().any(|r| within(r, &is_room));
+            // A room is on its own storey.
+            if of_room && !goes_up {
+                old.restrictions.retain(|r| !within(r, &is_storey));
+            }
+            of_storey |= old.restrictions.iter().any(|r| within(r, &is_storey));
+        });
+        let within = |r: &Restriction| match goes_up && of_storey {
+            true => within(r, &is_storey),
+            false => within(r, &is_room) || of_storey && within(r, &is_storey),
+        };
         // The room may narrow the table as well as what is on it.
         let mut replaced: Option<Vec<Noun>> = None;
         query.each_noun(&mut |old| {
@@ -314,8 +330,9 @@ impl Asker<'_> {
         }
         if !noun.restrictions.is_empty() {
             // «Что на столе в кухне? А на полу?» stays in the kitchen.
-            let names_room =
-                noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a)));
+            let is_part =
+                |anchor: &Noun| self.is_room(anchor) || anchor.is_storey(&self.mind.lexicon);
+            let names_room = noun.restrictions.iter().any(|r| r.anchors.iter().any(is_part));
             let room =
                 asked.restrictions.iter().find(|r| r.anchors.iter().any(|a| self.is_room(a)));
             // "And on the other side table?" may be in another room.

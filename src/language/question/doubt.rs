@@ -2,6 +2,7 @@
 
 use super::departed::Departed;
 use super::query::{Noun, Thing};
+use crate::sets::set;
 use crate::words::{Language, word_keys};
 
 /// Why a question has no answer.
@@ -90,6 +91,17 @@ impl Doubt {
     pub(super) fn unheeded(told: &str) -> Self {
         let told = told.trim_matches(|c: char| !c.is_alphanumeric());
         Self::Unheeded { told: told.to_owned() }
+    }
+
+    /// Whether a line goes on from the question before and names one thing that the map lacks: «А полотенце?»
+    pub(super) fn is_only_named(&self, text: &str) -> bool {
+        let Self::Unknown { reference, .. } = self else { return false };
+        let named = |key: &String| !set!("Article").contains(&key.as_str());
+        let keys = word_keys(text);
+        let goes_on = keys.iter().take_while(|key| set!("GoesOn").contains(&key.as_str())).count();
+        let rest: Vec<&String> = keys[goes_on..].iter().filter(|key| named(key)).collect();
+        let unknown = word_keys(reference);
+        goes_on > 0 && rest == unknown.iter().filter(|key| named(key)).collect::<Vec<_>>()
     }
 
     /// The doubt in the words of who asked: a sentence is put plainly before it is read, and what was put in is not theirs.

@@ -40,6 +40,9 @@ impl Asker<'_> {
 
     /// «А чайник?» after a question about something else: the same question about the kettle.
     pub(super) fn continued(&self, text: &str, memory: &Memory) -> Option<Query> {
+        if let Some(query) = self.more_of_ordered(text, memory) {
+            return Some(query);
+        }
         let waiting = memory.pending.as_ref().map(|pending| &pending.query);
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);

@@ -69,6 +69,8 @@ pub struct Memory {
     pub(super) left_departed: Option<Departed>,
     /// The last command that was carried out, and what it came to.
     pub(super) done: Option<Bilingual>,
+    /// Whether an order was heard last.
+    pub(super) is_ordered: bool,
     /// The state of the map to which all this belongs.
     pub(super) stamp: Option<Stamp>,
     /// What was spoken of and left the map since.
@@ -214,7 +216,7 @@ impl Memory {
         self.pending = None;
         self.unheard = None;
         self.told_place = None;
-        self.is_outdated = false;
+        (self.is_outdated, self.is_ordered) = (false, false);
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
             self.so = answer.is_so();
             self.facts.clone_from(&answer.facts);
@@ -282,8 +284,9 @@ impl Memory {
     /// Notes what a command is done to, on or in what that is before it, and whither it goes: "there" afterwards, and «на нём» of
     /// what may bear things.
     pub fn order(&mut self, things: &[Thing], whence: &[Thing], places: &[Thing]) {
+        let things = &*each_once(things);
         self.mention(things);
-        self.is_plural = things.len() > 1;
+        (self.is_plural, self.is_ordered) = (things.len() > 1, true);
         if let Some(exchange) = self.exchanges.first_mut().filter(|_| !things.is_empty()) {
             let others = whence.iter().filter(|place| !things.contains(place));
             exchange.aside.extend(others);
@@ -313,6 +316,8 @@ impl Memory {
 
     /// Notes the things that a command named.
     pub fn mention(&mut self, things: &[Thing]) {
+        // "Take it to the bedroom and put it on the dresser" names one thing twice, which is no list.
+        let things = &*each_once(things);
         self.hear_of_things(things);
         self.last = things.to_vec();
         if things.len() > 1 {
@@ -388,13 +393,7 @@ impl Memory {
 
     /// Notes several things, none of which is more spoken of than the others.
     pub(super) fn list(&mut self, things: &[Thing]) {
-        let mut each: Vec<Thing> = Vec::new();
-        for thing in things {
-            if !each.contains(thing) {
-                each.push(*thing);
-            }
-        }
-        match &each[..] {
+        match &each_once(things)[..] {
             [] => {}
             [only] => self.mention(&[*only]),
             things => {
@@ -426,6 +425,17 @@ impl Memory {
         things.push(*first);
         things
     }
+}
+
+/// Things in their order, each once.
+fn each_once(things: &[Thing]) -> Vec<Thing> {
+    let mut each: Vec<Thing> = Vec::new();
+    for thing in things {
+        if !each.contains(thing) {
+            each.push(*thing);
+        }
+    }
+    each
 }
 
 /// So many exchanges back a description is still understood by what was spoken of.
@@ -591,7 +601,7 @@ impl Memory {
     /// Notes that a question had no answer. Where it named nothing that is known, pronouns mean from now on what it was about.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
         (self.facts, self.said, self.told_place) = (Vec::new(), None, None);
-        self.so = None;
+        (self.so, self.is_ordered) = (None, false);
         // "By the book, do you mean …? – Is it open?" means one of those.
         if let Doubt::Ambiguous { candidates, .. } = doubt {
             // A reply is to what was asked back last.

@@ -30,6 +30,7 @@ mod discourse;
 mod disputed;
 mod doubt;
 mod doubts;
+mod each_told;
 mod everyday;
 mod focus;
 mod follow;
@@ -80,6 +81,7 @@ mod told_together;
 mod uses;
 mod values;
 mod vocabulary;
+mod which_told;
 mod whole;
 mod why;
 mod windows;
@@ -105,7 +107,6 @@ pub use values::{Property, ValueEntry, ValueId, Values};
 use crate::command::is_too_long;
 use crate::map::World;
 use crate::semantics::Relations;
-use crate::sets::set;
 use crate::words::{Language, word_keys};
 
 use grammar::{Item, Sentence};
@@ -281,17 +282,6 @@ type Outcome = Result<Answer, Box<(Doubt, Option<Query>)>>;
 #[derive(Debug, Clone)]
 pub struct Misread(pub Box<Unanswered>);
 
-/// Whether a line goes on from the question before and names one thing that the map lacks: «А полотенце?»
-fn is_only_named(text: &str, doubt: &Doubt) -> bool {
-    let Doubt::Unknown { reference, .. } = doubt else { return false };
-    let named = |key: &String| !set!("Article").contains(&key.as_str());
-    let keys = word_keys(text);
-    let goes_on = keys.iter().take_while(|key| set!("GoesOn").contains(&key.as_str())).count();
-    let rest: Vec<&String> = keys[goes_on..].iter().filter(|key| named(key)).collect();
-    let unknown = word_keys(reference);
-    goes_on > 0 && rest == unknown.iter().filter(|key| named(key)).collect::<Vec<_>>()
-}
-
 /// Answers questions about one state of a map.
 #[derive(Clone, Copy)]
 pub struct Asker<'a> {
@@ -412,7 +402,7 @@ impl Asker<'_> {
                 }
                 let is_deaf = memory.exchanges == before && self.pronouns(text).is_empty();
                 let names_nothing = is_cut || is_deaf && self.introduces(text);
-                let asked = memory.query.take_if(|_| is_only_named(text, &doubt));
+                let asked = memory.query.take_if(|_| doubt.is_only_named(text));
                 let place = memory.told_place.filter(|_| matches!(doubt, Doubt::Unknown { .. }));
                 memory.miss(&doubt, names_nothing);
                 memory.told_place = place;
@@ -587,7 +577,8 @@ impl Asker<'_> {
         }
     }
 
-    fn answer(&self, text: &str, language: Language, memory: &Memory) -> Outcome {
+    /// The answer to a question, none of whose words stands for some of those that were told.
+    fn answer_whole(&self, text: &str, language: Language, memory: &Memory) -> Outcome {
         if let Some(asked) = self.of_another_word(text, memory) {
             let heard = Memory { unheard: None, ..memory.clone() };
             return self.answer(&asked, language, &heard);

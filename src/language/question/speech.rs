@@ -297,10 +297,15 @@ impl Knowledge<'_> {
                 None => (kind.phrase.clone(), kind.english.clone()),
             },
             None => {
-                let named = &noun.head.named;
-                let are_rooms =
-                    !named.is_empty() && named.iter().all(|e| matches!(e, Entity::Area(_)));
-                let of = if are_rooms { Extension::Rooms } else { Extension::Things };
+                let named = noun.head.named.iter().map(|entity| Thing::Entity(*entity));
+                let told: Vec<Thing> =
+                    named.chain(noun.head.things.iter().flatten().copied()).collect();
+                let are = |of: fn(&Thing) -> bool| !told.is_empty() && told.iter().all(of);
+                let of = match are(|thing| matches!(thing, Thing::Entity(Entity::Door(_)))) {
+                    true => Extension::Doors,
+                    false if are(|thing| thing.area().is_some()) => Extension::Rooms,
+                    false => Extension::Things,
+                };
                 let kind = self.lexicon().kind_of(&of).map(|id| self.lexicon().kind(id));
                 let things =
                     || (NounPhrase::parse("вещь", &WordHints::default()), "thing".to_owned());

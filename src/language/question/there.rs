@@ -155,6 +155,13 @@ impl Knowledge<'_> {
         if let Some(place) = latest.and_then(places) {
             return Some(place);
         }
+        // «Что горит в спальне? – Лампа-1. – А какие ещё светильники там горят?»: in the bedroom, where one was told as well.
+        let told = |place: &Thing| {
+            self.memory.exchanges.first().is_some_and(|e| e.topics().contains(place))
+        };
+        if let Some(room) = self.place_asked_of().filter(|p| p.area().is_some() && told(p)) {
+            return Some(room);
+        }
         let latest = *self.memory.spoken.iter().find(|thing| !opens(thing))?;
         // Of several that were named, "there" is where they all are, or nowhere.
         let together = self.memory.exchanges.first().map_or(&[][..], Exchange::members);

@@ -12,9 +12,13 @@ use super::memory::{Exchange, is_of_whereabouts};
 use super::of_those::{asks_of_one, chooses};
 use super::query::{Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Asker, Memory, vocabulary};
+use crate::command::{self, Sort};
 use crate::map::Entity;
-use crate::sets::set;
+use crate::sets::{Set, set};
 use crate::words::{Language, Number, word_keys, word_ranges};
+
+/// Numbers that may stand for a storey, each with its noun.
+static RANKS: Set = Set::named("RankOfStorey");
 
 /// What a question word without its noun asks among.
 pub(super) struct Elided {
@@ -53,6 +57,20 @@ impl Asker<'_> {
         let end = words.last()?.end;
         let noun = Language::of(text).pick("этаже", "floor");
         Some(format!("{} {noun}{}", &text[..words[at].end], &text[end..]))
+    }
+
+    /// «Поезжай к лифту на втором»: where one goes, that is a storey, if the map has several.
+    pub(super) fn on_storey(&self, text: String) -> String {
+        let (words, keys) = (word_ranges(&text), word_keys(&text));
+        let goes = matches!(command::clauses(&text)[..], [(_, Sort::Go)]);
+        let [.., on, rank] = &keys[..] else { return text };
+        let storey = RANKS.meant().iter().find(|(said, _)| said == rank).map(|(_, noun)| noun);
+        let placed = goes && set!("OnOrThe").contains(&on.as_str());
+        let Some(noun) = storey.filter(|_| placed && self.world.maps.len() > 1) else {
+            return text;
+        };
+        let end = words[words.len() - 1].end;
+        format!("{} {noun}{}", &text[..end], &text[end..])
     }
 
     /// Whether the last question asked of what is on a storey, and told no several things that may be counted themselves.

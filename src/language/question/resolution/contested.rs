@@ -29,7 +29,11 @@ impl Asker<'_> {
         }
         let knowledge = self.knowledge(sentence.language, memory);
         let (_, sort) = *command::clauses(text).first()?;
-        let fits = |t: &&Thing| knowledge.can(sort, **t) && knowledge.agrees(pronoun, **t);
+        // Of two doors one of which cannot be shut, that one may be meant all the same.
+        let may = |t: Thing| {
+            knowledge.can(sort, t) || sort == command::Sort::Door && knowledge.is_akin(sort, t)
+        };
+        let fits = |t: &&Thing| may(**t) && knowledge.agrees(pronoun, **t);
         let candidates = memory.exchanges.iter().enumerate().map(|(n, exchange)| {
             // What it was asked by may be meant as well; and so may what was spoken of before and has not been left since.
             let before = memory.exchanges.get(n + 1).map_or(&[][..], Exchange::topics);

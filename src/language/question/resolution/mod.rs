@@ -143,7 +143,7 @@ impl Asker<'_> {
             Ok(named) => named.unwrap_or(text),
             Err((doubt, at)) => return Err(self.asked_back(doubt, text, at, language, memory)),
         };
-        let text = self.with_verb(self.with_noun(text, memory), memory);
+        let text = self.with_verb(self.with_noun(self.on_storey(text), memory), memory);
         let text = self.with_object(text, is_back, memory).map_err(misread)?;
         let Used { text, at: used, heads } = self.with_use(text, language).map_err(misread)?;
         let numbers = lost(&said, &word_keys(&text)).into_iter();

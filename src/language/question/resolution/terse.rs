@@ -264,7 +264,15 @@ impl Asker<'_> {
             _ => false,
         });
         let (object, goal) = items.split_at(goal.unwrap_or(items.len()));
-        if goal.len() > 1 || items.is_empty() {
+        // "On a chair in the kitchen": whither may be told by where that is.
+        let tells_where = |item: &Item| match item {
+            Item::Place { rel: Rel::From | Rel::Through | Rel::To, .. } => false,
+            Item::Place { rel, nouns, .. } => {
+                nouns.first().is_some_and(|p| resolver.is_whither(*rel, p) != Some(true))
+            }
+            _ => false,
+        };
+        if items.is_empty() || !goal.iter().skip(1).all(tells_where) {
             return None;
         }
         let starts = match goal.first() {
