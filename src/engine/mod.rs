@@ -60,6 +60,7 @@ mod logged;
 mod measured;
 mod memory;
 mod narration;
+mod near;
 mod news;
 mod observe;
 mod obstacles;

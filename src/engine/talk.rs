@@ -14,7 +14,7 @@ use crate::meaning;
 use crate::robot::{beyond_arm, starting_pose};
 use crate::semantics::{Relations, Subject, robot_eye, things_in_view};
 use crate::store::Seen;
-use crate::units::{InOrder as _, MapId, Pose, ReplicaId, capitalized, told};
+use crate::units::{InOrder as _, MapId, Pose, ReplicaId, told};
 
 use super::barriers::no_way_in_words;
 use super::journey::Journey;
@@ -57,91 +57,6 @@ impl State {
             other => other,
         };
         Ok(answered.map(|answer| answer.of(memory)))
-    }
-
-    /// Questions in words of a text that was not understood, which have an answer: see [`meaning::Grammar::near`]. `broken`:
-    /// within what asks words may be left out as well.
-    ///
-    /// # Errors
-    /// As [`State::ask`].
-    pub(super) fn questions_near(
-        &self,
-        text: &str,
-        broken: bool,
-        memory: &mut Memory,
-    ) -> Result<Vec<String>, Error> {
-        const MOST: usize = 2;
-        let now = self.around()?;
-        let (world, relations, lexicon) = (now.world(), now.relations()?, &now.mind().lexicon);
-        let map = meaning::Map { world, relations, lexicon, words: now.words() };
-        let mut found: Vec<(String, Query)> = Vec::new();
-        found.extend(self.question_within(text, memory)?);
-        let near = if found.is_empty() {
-            now.rules.grammar().near(&map, text, broken)
-        } else {
-            Vec::new()
-        };
-        for question in near {
-            let answer = self.ask(&question, &mut Memory::default())?;
-            let answer = answer.ok().filter(|answer| answer.said != Said::Unknown);
-            let Some(Answer { query, .. }) = answer else { continue };
-            // Another way to ask the same is no other question.
-            if found.iter().all(|(_, other)| *other != query) {
-                found.push((question, query));
-            }
-            if found.len() == MOST {
-                break;
-            }
-        }
-        if found.is_empty() {
-            found.extend(self.question_respelt(text, memory)?);
-        }
-        Ok(found.into_iter().map(|(question, _)| question).collect())
-    }
-
-    /// What a line asks without a part of it that is not understood. `memory` then knows what that part names.
-    pub(super) fn question_within(
-        &self,
-        text: &str,
-        memory: &mut Memory,
-    ) -> Result<Option<(String, Query)>, Error> {
-        let senses = RobotSenses { engine: self };
-        let asker = self.asker(&senses)?;
-        for asked in asker.asked_within(text) {
-            if !asker.asks_of_something(asked) {
-                continue;
-            }
-            let told = text.find(asked).map_or("", |at| &text[..at]);
-            let mut heard = Memory::default();
-            asker.hear_of(told, &mut heard);
-            if asker.read(asked, &heard).is_err() {
-                continue;
-            }
-            if let Ok(answer) = self.ask(asked, &mut heard)?
-                && answer.said != Said::Unknown
-            {
-                asker.hear_of(told, memory);
-                return Ok(Some((capitalized(asked), answer.query)));
-            }
-        }
-        Ok(None)
-    }
-
-    /// What a line asks, whole or in part, if what may be slips of the pen in it are such.
-    fn question_respelt(
-        &self,
-        text: &str,
-        memory: &mut Memory,
-    ) -> Result<Option<(String, Query)>, Error> {
-        let senses = RobotSenses { engine: self };
-        let asker = self.asker(&senses)?;
-        let Some(respelt) = asker.perhaps_respelt(text) else { return Ok(None) };
-        if asker.read(&respelt, &Memory::default()).is_err() {
-            return self.question_within(&respelt, memory);
-        }
-        let answer = self.ask(&respelt, &mut Memory::default())?;
-        let answer = answer.ok().filter(|answer| answer.said != Said::Unknown);
-        Ok(answer.map(|answer| (capitalized(&respelt), answer.query)))
     }
 
     /// What a line says beside parts of it, as [`Asker::cores`].
@@ -414,7 +329,7 @@ impl State {
         Ok(self.asker(&senses)?.orders_tersely(text))
     }
 
-    fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
+    pub(super) fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
         let now = self.around()?;
         Ok(Asker { world: now.world(), relations: now.relations()?, mind: now.mind(), senses })
     }
