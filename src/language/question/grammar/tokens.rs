@@ -37,6 +37,7 @@ impl<'t> Sentence<'t> {
         while at < sentence.keys.len() {
             at = sentence.token(at, lexicon);
         }
+        sentence.heed_what_articles_precede();
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
         sentence.drop_idle_but();
         sentence.tell_openings(lexicon);
@@ -52,6 +53,24 @@ impl<'t> Sentence<'t> {
             }
         }
         sentence
+    }
+
+    /// "Is there a then in the kitchen?": a small word that an article makes a noun of is no small word.
+    fn heed_what_articles_precede(&mut self) {
+        let small = |t: &Token| t.kind == Tok::Mark(Mark::Filler);
+        for n in 1..self.tokens.len() {
+            let article = matches!(self.tokens[n - 1].kind, Tok::Mark(Mark::A | Mark::The));
+            let next = self.tokens[n..].iter().find(|t| !small(t)).map(|t| t.kind);
+            let ends = matches!(
+                next,
+                None | Some(Tok::Mark(
+                    Mark::Link(_) | Mark::Be | Mark::Have | Mark::Can | Mark::And | Mark::Or
+                ))
+            );
+            if article && ends && small(&self.tokens[n]) {
+                self.tokens[n].kind = Tok::Unknown;
+            }
+        }
     }
 
     /// "But where is it?", «стол, но не красный»: what begins a sentence or comes before a denial bounds nothing.
