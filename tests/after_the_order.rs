@@ -126,3 +126,39 @@ fn an_order_behind_no_is_one_of_its_own() {
         assert_eq!(format!("{denied:?}"), format!("{alone:?}"), "{first} – {no}");
     }
 }
+
+/// "I meant the other one, and take it there" is no order on the first one.
+#[test]
+fn what_was_meant_instead_is_what_the_order_behind_it_is_done_to() {
+    let Some(engine) = engine("../shared/data/procthor/house_5.json") else { return };
+    let world = engine.world().unwrap().clone();
+    let goals = |line: &str| {
+        let mut engine = Engine::in_memory(world.clone(), None).unwrap();
+        let mut dialogue = orthoframe::engine::Dialogue::default();
+        let mut last = String::new();
+        let before = ["Where are the bowls?", "Take the one from the bedroom to the kitchen."];
+        for said in before.into_iter().chain([line]) {
+            let heard = dialogue.hear(&mut engine, said, &mut |_, _| {}).unwrap();
+            last = format!("{:?}", heard.tasks().map(|task| &task.goal).collect::<Vec<_>>());
+        }
+        last
+    };
+    let done_to = |goals: &str| [1, 2].map(|n| goals.contains(&format!("Миска-{n}\"")));
+    assert_eq!(done_to(&goals("Take it to the bathroom.")), [true, false]);
+    // What is put right is not understood behind nothing: then nothing is done.
+    let mut none = Engine::in_memory(world.clone(), None).unwrap();
+    let mut dialogue = orthoframe::engine::Dialogue::default();
+    dialogue.hear(&mut none, "Where is bowl 1?", &mut |_, _| {}).unwrap();
+    let line = "I meant the other one, and take it to the bathroom";
+    let heard = dialogue.hear(&mut none, line, &mut |_, _| {}).unwrap();
+    assert_eq!(heard.tasks().count(), 0, "{}", heard.text());
+    for line in [
+        "Sorry, I meant the other one, and take it to the bathroom.",
+        "I meant the other one, and take it to the bathroom",
+        "No, the other one, and take it to the bathroom.",
+        "Нет, другую, и отнеси её в ванную.",
+        "Я имел в виду другую, и отнеси её в ванную.",
+    ] {
+        assert_eq!(done_to(&goals(line)), [false, true], "{line}");
+    }
+}

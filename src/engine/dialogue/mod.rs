@@ -38,8 +38,8 @@ use crate::language::command::{
     whither_alone,
 };
 use crate::language::question::{
-    Aside, Conditional, Corrected, Doubt, Memory, Unanswered, aside, asks_whether, begs, behind_no,
-    conditional, hinged, sentences, unaddressed, unbegged,
+    Aside, Conditional, Corrected, Doubt, Memory, Unanswered, another_and_order, aside,
+    asks_whether, begs, behind_no, conditional, hinged, sentences, unaddressed, unbegged,
 };
 use crate::map::{Entity, World};
 use crate::robot::Vehicle;
@@ -330,6 +330,12 @@ impl Hearing<'_, '_> {
         }
         if let Some(whole) = self.engine.resumed(line, &self.dialogue.memory)? {
             return self.obey(&whole, awaited);
+        }
+        if let Some([other, order]) = another_and_order(line) {
+            self.hear(&other)?;
+            let told = self.heard.replies.last().map(|reply| &reply.outcome);
+            let is_done = matches!(told, Some(Outcome::Task(task)) if task.ending.is_done());
+            return if is_done { self.hear(&order) } else { self.not_begun(&order) };
         }
         // "No, put the other one there" amends nothing, and is an order of its own.
         if let Some(order) = behind_no(line).filter(|order| !order.contains('?') && has_verb(order))

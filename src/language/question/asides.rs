@@ -3,9 +3,10 @@
 //!
 //! Invariant: only a line of nothing else is an aside.
 
+use crate::command::has_verb;
 use crate::sets::{named, of_kind, set};
 use crate::units::name_key;
-use crate::words::word_keys;
+use crate::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// A line that means something only after what was said before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -33,6 +34,21 @@ pub fn aside(text: &str) -> Option<Aside> {
 pub fn behind_no(text: &str) -> Option<&str> {
     let (no, behind) = text.split_once([',', '.', '!'])?;
     (aside(no) == Some(Aside::No)).then(|| behind.trim_start())
+}
+
+/// "Sorry, I meant the other one, and take it to the hall": what is put right, and the order behind it, which is done to that.
+#[must_use]
+pub fn another_and_order(line: &str) -> Option<[String; 2]> {
+    let (words, keys) = (word_ranges(line), word_keys(line));
+    let phrase = |all: &[&str], at: usize| all.iter().filter_map(|p| phrase_at(&keys, at, p)).max();
+    let is_no = |key: &&String| set!("NoOrSorry").contains(&key.as_str());
+    let denied = keys.iter().take_while(is_no).count();
+    let lead = denied + phrase(set!("IMeant"), denied).unwrap_or_default();
+    let end = lead + phrase(set!("AnotherOne"), lead).filter(|_| lead > 0)?;
+    let order = end + phrase(set!("AndWord"), end)?;
+    let (other, order) = (&line[words[lead].start..words[end - 1].end], words.get(order)?.start);
+    let no = Language::of(line).pick("Нет", "No");
+    has_verb(&line[order..]).then(|| [format!("{no}, {other}"), line[order..].to_owned()])
 }
 
 /// Whether a line begs: "Two spoons to the table, please".

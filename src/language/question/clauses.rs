@@ -170,7 +170,7 @@ impl Asker<'_> {
                 && !is_reported(&word_keys(told))
                 && !parts_of(told).any(|part| self.bounds(part) || self.tells_how_much(part))
                 && !parts_of(told).any(|part| self.premise(part).is_some())
-                && (asked.contains('?') || !parts_of(told).any(is_marked))
+                && !parts_of(told).any(is_marked)
                 && !self.narrows(told, asked)
                 && !goes_on(told, asked)
                 && self.asks_of_something(asked)

@@ -87,7 +87,7 @@ mod why;
 mod windows;
 
 pub use address::{unaddressed, unbegged};
-pub use asides::{Aside, aside, asks_whether, begs, behind_no};
+pub use asides::{Aside, another_and_order, aside, asks_whether, begs, behind_no};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use departed::{Departed, Stamp};
 pub use doubt::{Doubt, Unanswered};
