@@ -72,8 +72,11 @@ const ENGLISH: [(&str, &str); 6] = [
     ("either of them", "either"),
 ];
 
+/// Ways to say so, each with what it shares.
+type Ways = &'static [(&'static str, &'static str)];
+
 /// The same as the Russian prepositions take them.
-const RUSSIAN: [(Case, &str, &[(&str, &str)]); 3] = [
+const RUSSIAN: [(Case, &str, Ways); 3] = [
     (
         Case::Prepositional,
         "на",
@@ -291,7 +294,8 @@ fn which_of_them_has_more_is_told_by_how_many_each_has() {
                         true => counts.iter().copied().fold(f64::INFINITY, f64::min),
                         false => counts.iter().copied().fold(0.0, f64::max),
                     };
-                    let most = all.iter().zip(&counts).filter(|(_, n)| n.total_cmp(&&best).is_eq());
+                    let most =
+                        all.iter().zip(&counts).filter(|(_, n)| (**n).total_cmp(&best).is_eq());
                     let most: BTreeSet<Thing> = most.map(|(id, _)| replica(*id)).collect();
                     let found: BTreeSet<Thing> = answer.things.iter().copied().collect();
                     assert_eq!(found, most, "{list} {line} {}", answer.text);

@@ -184,10 +184,11 @@ impl Asker<'_> {
                 Item::Mark(Mark::Exists) => exists = true,
                 Item::Mark(Mark::HowMany) => counts = true,
                 Item::Mark(Mark::And | Mark::Be | Mark::Filler | Mark::A | Mark::One) => {}
-                Item::Mark(Mark::Anything) if sentence.keys.iter().any(is_some) => {}
+                Item::Mark(Mark::Anything) if sentence.keys.iter().any(|key| is_some(key)) => {}
                 Item::Noun(phrase)
                     if phrase.pronoun == Some(Pronoun::They)
-                        || phrase.noun.head.anything && sentence.keys.iter().any(is_some) => {}
+                        || phrase.noun.head.anything
+                            && sentence.keys.iter().any(|key| is_some(key)) => {}
                 Item::Place { rel, nouns, either: false }
                     if nouns.iter().all(|p| p.pronoun.is_none() && p.person.is_none()) =>
                 {
@@ -319,8 +320,8 @@ fn ranks(word: &str) -> bool {
 }
 
 /// "Any", "some", "one": of what, was said before.
-fn is_some(key: &String) -> bool {
-    set!("OneOrSome").contains(&key.as_str())
+fn is_some(key: &str) -> bool {
+    set!("OneOrSome").contains(&key)
 }
 
 fn is_one(noun: &Noun) -> bool {

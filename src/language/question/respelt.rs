@@ -43,7 +43,7 @@ impl Asker<'_> {
             let word: &str = match (&named, &listed[..]) {
                 (Some(named), []) => named,
                 (Some(named), [only]) if *only == name_key(named) => named,
-                (None, [only]) => *only,
+                (None, [only]) => only,
                 _ => continue,
             };
             mended.replace_range(at, word);
