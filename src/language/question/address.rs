@@ -17,6 +17,7 @@ use super::several::{self, is_tag};
 use super::vocabulary;
 use crate::command::{Correction, correction_of_question, is_order};
 use crate::sets::{Set, set};
+use crate::units::name_key;
 use crate::words::{is_first_person, phrase_at, word_keys, word_ranges};
 
 /// A line without the words by which somebody is spoken to, and without particles of speech.
@@ -35,7 +36,7 @@ fn unstressed(line: &str) -> Option<String> {
     for (at, _) in line.rmatch_indices(STRESS) {
         let ends = line[at + STRESS.len()..].chars().next().is_none_or(|c| !c.is_alphanumeric());
         let word = line[..at].rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
-        let word = word.to_lowercase();
+        let word = name_key(word);
         let asks = set!("IndefiniteStem").iter().any(|stem| word.starts_with(stem));
         if ends && !word.is_empty() && !asks {
             plain.replace_range(at..at + STRESS.len(), "");
