@@ -212,7 +212,13 @@ impl Asker<'_> {
         }
         let (_, rel) = link_before(&sentence.keys, said.words.start);
         let genders = genders(&sentence.keys[said.words.start..=said.words.start]);
-        let things = self.all_told(rel, said.of_two, memory)?;
+        let about = sentence.said(&said.words).to_owned();
+        let unclear = || Err(Box::new((Doubt::Incomplete { about: about.clone() }, None)));
+        // Of those on which nothing may be, it is not read as of them together.
+        let is_placed = rel.is_some() && self.all_told(None, said.of_two, memory).is_some();
+        let Some(things) = self.all_told(rel, said.of_two, memory) else {
+            return is_placed.then(unclear);
+        };
         let knowledge = self.knowledge(language, memory);
         let agree = |thing: &Thing| {
             genders.is_empty() || genders.iter().any(|gender| knowledge.agrees(*gender, *thing))
@@ -220,8 +226,6 @@ impl Asker<'_> {
         if said.of_two && things.len() != 2 {
             return None;
         }
-        let about = sentence.said(&said.words).to_owned();
-        let unclear = || Err(Box::new((Doubt::Incomplete { about: about.clone() }, None)));
         // «Сколько тумб? Что на каждом из них?» may be of something else.
         if !which && (!things.iter().all(agree) || said.is_denied(&sentence.keys)) {
             return Some(unclear());
