@@ -1,7 +1,7 @@
 //! What may have been asked where a line was not understood, to be offered: a question within it, one in its words, or what it
 //! asks without its slips of the pen.
 
-use crate::language::question::{Answer, Memory, Query, Said};
+use crate::language::question::{Memory, Query, Said};
 use crate::meaning;
 use crate::units::capitalized;
 
@@ -21,20 +21,15 @@ impl State {
         memory: &mut Memory,
     ) -> Result<Vec<String>, Error> {
         const MOST: usize = 2;
+        if let Some((question, _)) = self.question_within(text, memory)? {
+            return Ok(vec![question]);
+        }
         let now = self.around()?;
         let (world, relations, lexicon) = (now.world(), now.relations()?, &now.mind().lexicon);
         let map = meaning::Map { world, relations, lexicon, words: now.words() };
         let mut found: Vec<(String, Query)> = Vec::new();
-        found.extend(self.question_within(text, memory)?);
-        let near = if found.is_empty() {
-            now.rules.grammar().near(&map, text, broken)
-        } else {
-            Vec::new()
-        };
-        for question in near {
-            let answer = self.ask(&question, &mut Memory::default())?;
-            let answer = answer.ok().filter(|answer| answer.said != Said::Unknown);
-            let Some(Answer { query, .. }) = answer else { continue };
+        for question in now.rules.grammar().near(&map, text, broken) {
+            let Some(query) = self.known(&question, Memory::default())? else { continue };
             // Another way to ask the same is no other question.
             if found.iter().all(|(_, other)| *other != query) {
                 found.push((question, query));
@@ -49,7 +44,7 @@ impl State {
         Ok(found.into_iter().map(|(question, _)| question).collect())
     }
 
-    /// What a line asks without a part of it that is not understood. `memory` then knows what that part names.
+    /// What a line asks without a part of it that is not understood. `memory` then knows what stands before.
     pub(super) fn question_within(
         &self,
         text: &str,
@@ -57,21 +52,15 @@ impl State {
     ) -> Result<Option<(String, Query)>, Error> {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
-        for asked in asker.asked_within(text) {
-            if !asker.asks_of_something(asked) {
-                continue;
-            }
-            let told = text.find(asked).map_or("", |at| &text[..at]);
+        for (told, asked) in asker.asked_within(text) {
             let mut heard = Memory::default();
             asker.hear_of(told, &mut heard);
-            if asker.read(asked, &heard).is_err() {
+            if !asker.asks_of_something(asked) || asker.read(asked, &heard).is_err() {
                 continue;
             }
-            if let Ok(answer) = self.ask(asked, &mut heard)?
-                && answer.said != Said::Unknown
-            {
+            if let Some(query) = self.known(asked, heard)? {
                 asker.hear_of(told, memory);
-                return Ok(Some((capitalized(asked), answer.query)));
+                return Ok(Some((capitalized(asked), query)));
             }
         }
         Ok(None)
@@ -89,8 +78,14 @@ impl State {
         if asker.read(&respelt, &Memory::default()).is_err() {
             return self.question_within(&respelt, memory);
         }
-        let answer = self.ask(&respelt, &mut Memory::default())?;
+        let query = self.known(&respelt, Memory::default())?;
+        Ok(query.map(|query| (capitalized(&respelt), query)))
+    }
+
+    /// The query of a question that the map has an answer to.
+    fn known(&self, question: &str, mut memory: Memory) -> Result<Option<Query>, Error> {
+        let answer = self.ask(question, &mut memory)?;
         let answer = answer.ok().filter(|answer| answer.said != Said::Unknown);
-        Ok(answer.map(|answer| (capitalized(&respelt), answer.query)))
+        Ok(answer.map(|answer| answer.query))
     }
 }

@@ -6,7 +6,8 @@ use crate::language::command::{Misheard, is_command, is_order_by, without_marks}
 use crate::language::names::english_name;
 use crate::language::question::{
     Answer, Asker, Corrected, Doubt, Fact, Memory, Mind, Misread, News, Noun, Past, Query,
-    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, hinged, unaddressed,
+    Resolved, Said, Senses, Sighting, Thing, Unanswered, Way, conditional, dashed, hinged,
+    unaddressed,
 };
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
@@ -200,10 +201,8 @@ impl State {
         if conditional(line).is_some() || hinged(line).is_some() {
             return Ok(None);
         }
-        // A hyphen between blanks stands for a dash.
-        let line = line.replace(" - ", " – ");
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.corrected(&line, memory))
+        Ok(self.asker(&senses)?.corrected(&dashed(line), memory))
     }
 
     /// An order with the names of what it only points at: see [`Asker::with_pointed`].

@@ -29,6 +29,12 @@ pub fn unaddressed(line: &str) -> Cow<'_, str> {
     }
 }
 
+/// A line in which a hyphen between blanks is the dash that it stands for.
+#[must_use]
+pub fn dashed(line: &str) -> String {
+    line.replace(" - ", " – ")
+}
+
 /// A line without «-то», where that only stresses a word: «куда её поставили-то?», but «где-то».
 fn unstressed(line: &str) -> Option<String> {
     const STRESS: &str = "-то";

@@ -58,12 +58,7 @@ impl Asker<'_> {
     #[must_use]
     pub fn cores<'t>(&self, text: &'t str) -> Vec<(&'t str, String)> {
         const MOST: usize = 8;
-        let parts = parts(text);
-        if parts.len() > MOST {
-            return Vec::new();
-        }
-        let bounds: Vec<bool> =
-            parts.iter().map(|(from, to)| self.bounds(&text[*from..*to])).collect();
+        let Some((parts, bounds)) = self.bounding_parts(text, MOST) else { return Vec::new() };
         let count = parts.len();
         let runs = (1..count).rev().flat_map(|n| (0..=count - n).map(move |from| from..from + n));
         let is_free = |run: &Range<usize>| (0..count).all(|n| run.contains(&n) || !bounds[n]);
@@ -74,47 +69,46 @@ impl Asker<'_> {
         runs.filter(is_free).map(core).collect()
     }
 
-    /// The runs of a line that ask, as they begin or end, and beside which nothing bounds them: the longest first. Within a
-    /// part a run begins behind a joint, or with a word that asks: "gotta know which …".
+    /// The runs of a line that ask, as they begin or end, and beside which nothing bounds them, the longest first; each behind
+    /// what stands before it. Within a part a run begins behind a joint, or with a word that asks: "gotta know which …".
     #[must_use]
-    pub fn asked_within<'t>(&self, text: &'t str) -> Vec<&'t str> {
+    pub fn asked_within<'t>(&self, text: &'t str) -> Vec<(&'t str, &'t str)> {
         const MOST: usize = 16;
-        let parts = parts(text);
-        if parts.len() > MOST {
-            return Vec::new();
-        }
-        let bounds: Vec<bool> =
-            parts.iter().map(|(from, to)| self.bounds(&text[*from..*to])).collect();
+        let Some((parts, bounds)) = self.bounding_parts(text, MOST) else { return Vec::new() };
         let mut found = Vec::new();
         for (n, (from, to)) in parts.iter().enumerate() {
             let part = &text[*from..*to];
             let (words, keys) = (word_ranges(part), word_keys(part));
-            let asks = |at: usize| {
+            let marked = |at: usize| {
                 vocabulary::longest(&keys[at..=at]).is_some_and(|(_, mark)| mark.asks())
             };
-            // "In which rooms", and behind "so", «а».
             let begins = |at: usize| {
                 let behind_joint = || (1..=at).any(|taken| joined(&keys[at - taken..at]) == taken);
-                at == 0
-                    || behind_joint()
-                    || asks(at) && !goes_on(&part[..words[at].start], &part[words[at].start..])
+                let (before, behind) = part.split_at(words[at].start);
+                at == 0 || behind_joint() || marked(at) && !goes_on(before, behind)
             };
             for at in (0..keys.len()).filter(|at| begins(*at)) {
                 let begin = from + words[at].start;
                 if at > 0 && self.bounds(&text[*from..begin]) {
                     continue;
                 }
-                let runs = (n..parts.len()).map(|last| (last, &text[begin..parts[last].1]));
                 let is_free =
                     |last: usize| (0..parts.len()).all(|k| (n..=last).contains(&k) || !bounds[k]);
+                let runs = (n..parts.len()).filter(|last| is_free(*last));
+                let runs = runs.map(|last| (&text[..begin], &text[begin..parts[last].1]));
                 let asks = |run: &str| self.asks(run) || self.begins_as_question(&self.plain(run));
-                let asking = runs.filter(|(last, run)| is_free(*last) && asks(run));
-                found.extend(asking.map(|(_, run)| run));
+                found.extend(runs.filter(|(_, run)| *run != text && asks(run)));
             }
         }
-        found.sort_by_key(|run| std::cmp::Reverse(run.len()));
-        found.retain(|run| *run != text);
+        found.sort_by_key(|(_, run)| std::cmp::Reverse(run.len()));
         found
+    }
+
+    /// The parts of a line and which of them bound it; none of a line of more.
+    fn bounding_parts(&self, text: &str, most: usize) -> Option<(Vec<(usize, usize)>, Vec<bool>)> {
+        let parts = Some(parts(text)).filter(|parts| parts.len() <= most)?;
+        let bounds = parts.iter().map(|(from, to)| self.bounds(&text[*from..*to])).collect();
+        Some((parts, bounds))
     }
 
     /// «После ремонта», "last week", «летом»: no clause of its own, but a time or a place of what is asked.

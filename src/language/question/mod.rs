@@ -86,7 +86,7 @@ mod whole;
 mod why;
 mod windows;
 
-pub use address::{unaddressed, unbegged};
+pub use address::{dashed, unaddressed, unbegged};
 pub use asides::{Aside, another_and_order, aside, asks_whether, begs, behind_no};
 pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use departed::{Departed, Stamp};
@@ -313,8 +313,7 @@ impl Asker<'_> {
 
     /// The same, whatever bounds it.
     fn heard(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
-        // A hyphen between blanks stands for a dash.
-        let text = unaddressed(text).replace(" - ", " – ");
+        let text = dashed(&unaddressed(text));
         if text.chars().any(char::is_alphabetic) {
             memory.language = Language::of(&text);
         }

@@ -94,7 +94,7 @@ impl Asker<'_> {
     }
 
     fn stay(&self, text: &str) -> Option<Noun> {
-        self.place_of_stay(text).and_then(|(place, me)| Some(place).filter(|_| me))
+        self.place_of_stay(text).filter(|(_, me)| *me).map(|(place, _)| place)
     }
 
     /// The place of a part that tells a place and nobody who is there: "still in bed".
