@@ -12,6 +12,9 @@ use super::{Answer, Asker, Memory, Query, opening, premise, several, vocabulary}
 use crate::sets::{Set, set};
 use crate::words::{Language, may_be_predicate, phrase_at, word_keys, word_ranges};
 
+/// Where a part of a line begins and ends, in bytes.
+pub(super) type Part = (usize, usize);
+
 /// What begins a condition, a time, or what is left out.
 static BOUNDS: Set = Set::named("BoundsClause");
 
@@ -105,7 +108,7 @@ impl Asker<'_> {
     }
 
     /// The parts of a line and which of them bound it; none of a line of more.
-    fn bounding_parts(&self, text: &str, most: usize) -> Option<(Vec<(usize, usize)>, Vec<bool>)> {
+    fn bounding_parts(&self, text: &str, most: usize) -> Option<(Vec<Part>, Vec<bool>)> {
         let parts = Some(parts(text)).filter(|parts| parts.len() <= most)?;
         let bounds = parts.iter().map(|(from, to)| self.bounds(&text[*from..*to])).collect();
         Some((parts, bounds))
@@ -390,7 +393,7 @@ pub(super) fn parts_of(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The parts of a line between its marks, by their bytes.
-pub(super) fn parts(text: &str) -> Vec<(usize, usize)> {
+pub(super) fn parts(text: &str) -> Vec<Part> {
     let mut parts = Vec::new();
     let mut from = 0;
     let ends = text.char_indices().filter(|(at, c)| {
